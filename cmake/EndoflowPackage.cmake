@@ -1,0 +1,16 @@
+include(GNUInstallDirs)
+install(TARGETS endoflow endoflow-boundary-integral RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(ENDOFLOW_PHASEFIELD)
+  install(TARGETS endoflow-phase-field RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+install(DIRECTORY comparisons python cases DESTINATION ${CMAKE_INSTALL_DATADIR}/endoflow
+        PATTERN "__pycache__" EXCLUDE PATTERN "CMakeLists.txt" EXCLUDE)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "endoflow maintainers")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy, python3-scipy, python3-h5py, python3-matplotlib")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+include(CPack)

@@ -1,0 +1,32 @@
+# How the parts of the project see each other.
+#
+# Files include each other by their path from the project's root ("shared/model/bending_model.h"). Each part gets a
+# directory of its own in the build tree that holds nothing but a link to the part, and a target sees the directories
+# of the parts it links, no others. So boundary_integral/ cannot include phasefield/, and neither can include cli/.
+
+function(endoflow_part_directory part result)
+  set(root ${CMAKE_BINARY_DIR}/include/${part})
+  file(MAKE_DIRECTORY ${root})
+  if(NOT EXISTS ${root}/${part})
+    file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${part} ${root}/${part} SYMBOLIC)
+  endif()
+  set(${result} ${root} PARENT_SCOPE)
+endfunction()
+
+add_library(endoflow_warnings INTERFACE)
+target_compile_options(endoflow_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+
+add_library(endoflow_sanitizers INTERFACE)
+if(ENDOFLOW_SANITIZE)
+  target_compile_options(endoflow_sanitizers INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+                                                       -fno-omit-frame-pointer)
+  target_link_options(endoflow_sanitizers INTERFACE -fsanitize=address,undefined)
+endif()
+
+# endoflow_add_part(TARGET PART sources… ) makes a static library of one part; its users see PART's headers.
+function(endoflow_add_part target part)
+  endoflow_part_directory(${part} root)
+  add_library(${target} STATIC ${ARGN})
+  target_include_directories(${target} PUBLIC ${root})
+  target_link_libraries(${target} PRIVATE endoflow_warnings PUBLIC endoflow_sanitizers)
+endfunction()

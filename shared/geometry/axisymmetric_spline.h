@@ -1,0 +1,24 @@
+#pragma once
+
+#include <gsl/gsl_spline.h>
+
+#include <memory>
+#include <vector>
+
+namespace endoflow {
+
+enum class Parity { even, odd };
+
+/// Cubic spline of a function known at parameters 0 = t0 < t1 < …, continued to t < 0 as an even or odd function.
+class AxisymmetricSpline {
+  public:
+    AxisymmetricSpline(const std::vector<double>& t, const std::vector<double>& values, Parity parity);
+
+    [[nodiscard]] double value(double t) const { return gsl_spline_eval(spline_.get(), t, nullptr); }
+    [[nodiscard]] double derivative(double t) const { return gsl_spline_eval_deriv(spline_.get(), t, nullptr); }
+
+  private:
+    std::unique_ptr<gsl_spline, decltype(&gsl_spline_free)> spline_;
+};
+
+}  // namespace endoflow

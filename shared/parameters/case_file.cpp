@@ -1,0 +1,149 @@
+#include "shared/parameters/case_file.h"
+
+#include <fmt/format.h>
+
+#define TOML_EXCEPTIONS 1
+#include <toml++/toml.h>
+
+#include <fstream>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "shared/parameters/parameter_table.h"
+#include "shared/support/error.h"
+#include "shared/support/nearest_word.h"
+
+namespace endoflow {
+
+namespace {
+
+/// Larger case files than this are refused before they are read: no sensible case comes near it.
+constexpr std::uintmax_t largest_case_file = 1 << 20;
+
+std::string location(const std::string& source_name, const toml::source_region& region) {
+    return fmt::format("{}:{}:{}", source_name, region.begin.line, region.begin.column);
+}
+
+std::set<std::string> known_sections() {
+    std::set<std::string> sections;
+    for (const auto& row : parameter_table()) sections.insert(row.section);
+    return sections;
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+    const auto nearest = nearest_word(word, known);
+    return nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : "; 'endoflow params' lists every parameter";
+}
+
+std::string unknown_section_message(const std::string& section) {
+    const auto sections = known_sections();
+    return fmt::format("unknown section [{}]{}", section, suggestion(section, {sections.begin(), sections.end()}));
+}
+
+std::string unknown_key_message(const std::string& section, const std::string& key) {
+    std::vector<std::string> names;
+    for (const auto& row : parameter_table()) names.push_back(row.name());
+    return fmt::format("unknown key {}.{}{}", section, key, suggestion(section + "." + key, names));
+}
+
+ParameterValue value_of(const toml::node& node, const std::string& name, const std::string& where) {
+    if (const auto* value = node.as_boolean()) return value->get();
+    if (const auto* value = node.as_integer()) return static_cast<long long>(value->get());
+    if (const auto* value = node.as_floating_point()) return value->get();
+    if (const auto* value = node.as_string()) return value->get();
+    const ParameterRow* row = find_parameter(name);
+    throw InputError(fmt::format("{}: {} must be {}", where, name, row ? describe_allowed(*row) : "a single value"));
+}
+
+void apply_section(Parameters& parameters, const std::string& section, const toml::table& keys,
+                   const std::string& source_name) {
+    for (const auto& [key, node] : keys) {
+        const std::string where = location(source_name, node.source());
+        const std::string name = section + "." + std::string(key.str());
+        const ParameterRow* row = find_parameter(name);
+        if (row == nullptr)
+            throw InputError(fmt::format("{}: {}", location(source_name, key.source()),
+                                         unknown_key_message(section, std::string(key.str()))));
+        set_parameter(parameters, *row, value_of(node, name, where), where);
+    }
+}
+
+void apply_document(Parameters& parameters, const toml::table& document, const std::string& source_name) {
+    const auto sections = known_sections();
+    for (const auto& [section, node] : document) {
+        const std::string name(section.str());
+        const std::string where = location(source_name, section.source());
+        if (!sections.contains(name)) throw InputError(where + ": " + unknown_section_message(name));
+        if (!node.is_table())
+            throw InputError(fmt::format("{}: {} must be a section, written [{}]", where, name, name));
+        apply_section(parameters, name, *node.as_table(), source_name);
+    }
+}
+
+/// "12" → 12, "true" → true, "consistent" → "consistent": TOML syntax, with bare words taken as strings.
+ParameterValue override_value(const std::string& text, const std::string& name, const std::string& where) {
+    if (text.find_first_of("\r\n") == std::string::npos) {
+        try {
+            const toml::table parsed = toml::parse("value = " + text);
+            return value_of(*parsed.get("value"), name, where);
+        } catch (const toml::parse_error&) {
+            // Not TOML: a bare word such as consistent, taken as a string below.
+        }
+    }
+    return text;
+}
+
+void apply_override(Parameters& parameters, const std::string& text) {
+    const auto equals = text.find('=');
+    const auto dot = text.find('.');
+    if (equals == std::string::npos || dot == std::string::npos || dot > equals)
+        throw InputError(fmt::format("--set {}: it must read section.key=value", text));
+    const std::string where = "--set " + text;
+    const std::string section = text.substr(0, dot), key = text.substr(dot + 1, equals - dot - 1);
+    if (!known_sections().contains(section)) throw InputError(where + ": " + unknown_section_message(section));
+    const ParameterRow* row = find_parameter(section + "." + key);
+    if (row == nullptr) throw InputError(where + ": " + unknown_key_message(section, key));
+    set_parameter(parameters, *row, override_value(text.substr(equals + 1), row->name(), where), where);
+}
+
+std::string read_text(const std::filesystem::path& file) {
+    std::error_code failure;
+    if (!std::filesystem::exists(file, failure))
+        throw InputError(file.string() + ": no such case file; give the path of a TOML file");
+    if (std::filesystem::is_directory(file, failure))
+        throw InputError(file.string() + ": is a directory; give the path of a TOML file");
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) throw IoError(file.string() + ": the case file cannot be read; check its permissions");
+    std::string text;
+    char block[4096];
+    while (stream.read(block, sizeof block) || stream.gcount() > 0) {
+        text.append(block, static_cast<std::size_t>(stream.gcount()));
+        if (text.size() > largest_case_file)
+            throw InputError(fmt::format("{}: larger than {} bytes; a case file is a short TOML text", file.string(),
+                                         largest_case_file));
+    }
+    return text;
+}
+
+}  // namespace
+
+Parameters parse_case(const std::string& text, const std::string& source_name,
+                      const std::vector<std::string>& overrides) {
+    Parameters parameters;
+    try {
+        apply_document(parameters, toml::parse(text, source_name), source_name);
+    } catch (const toml::parse_error& error) {
+        throw InputError(
+            fmt::format("{}: not valid TOML: {}", location(source_name, error.source()), error.description()));
+    }
+    for (const auto& item : overrides) apply_override(parameters, item);
+    validate_combination(parameters, source_name);
+    return parameters;
+}
+
+Parameters read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    return parse_case(read_text(file), file.string(), overrides);
+}
+
+}  // namespace endoflow

@@ -1,0 +1,95 @@
+#include "shared/parameters/parameter_rendering.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "shared/parameters/parameter_table.h"
+
+namespace endoflow {
+
+namespace {
+
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') result += '\\';
+        if (static_cast<unsigned char>(c) < 0x20)
+            result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+        else
+            result += c;
+    }
+    return result + "\"";
+}
+
+std::string allowed(const ParameterRow& row) {
+    return row.choices.empty() ? row.bounds.describe() : fmt::format("{}", fmt::join(row.choices, " | "));
+}
+
+/// "meaning [symbol]; unit; bounds" as one line.
+std::string annotation(const ParameterRow& row) {
+    std::string text = row.meaning;
+    if (!row.symbol.empty()) text += " [" + row.symbol + "]";
+    if (!row.unit.empty()) text += "; in " + row.unit;
+    if (const auto range = allowed(row); !range.empty()) text += "; " + range;
+    return text;
+}
+
+}  // namespace
+
+std::string to_toml(const ParameterValue& value) {
+    if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+    if (const auto* number = std::get_if<long long>(&value)) return fmt::format("{}", *number);
+    if (const auto* number = std::get_if<double>(&value)) {
+        const std::string text = fmt::format("{}", *number);
+        return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+    }
+    return quoted(std::get<std::string>(value));
+}
+
+std::string render_parameters_text() {
+    std::size_t width = 0;
+    for (const auto& row : parameter_table()) width = std::max(width, row.name().size());
+    std::string text;
+    for (const auto& row : parameter_table())
+        text += fmt::format("{:<{}}  {:<14}  {}\n", row.name(), width, to_toml(row.default_value()), annotation(row));
+    return text;
+}
+
+std::string render_parameters_markdown() {
+    std::string text, section;
+    for (const auto& row : parameter_table()) {
+        if (row.section != section) {
+            section = row.section;
+            text += fmt::format("\n## [{}]\n\n| key | default | unit | allowed | symbol | meaning |\n", section);
+            text += "| --- | --- | --- | --- | --- | --- |\n";
+        }
+        std::string range = allowed(row);
+        for (std::size_t at = range.find('|'); at != std::string::npos; at = range.find('|', at + 2))
+            range.insert(at, 1, '\\');
+        text += fmt::format("| `{}` | `{}` | {} | {} | {} | {} |\n", row.key, to_toml(row.default_value()), row.unit,
+                            range, row.symbol, row.meaning);
+    }
+    return text;
+}
+
+std::string render_parameters_toml(const Parameters& parameters) {
+    std::string text, section;
+    for (const auto& row : parameter_table()) {
+        if (row.section != section) {
+            text += fmt::format("{}[{}]\n", section.empty() ? "" : "\n", row.section);
+            section = row.section;
+        }
+        text += fmt::format("# {}\n{} = {}\n", annotation(row), row.key, to_toml(row.get(parameters)));
+    }
+    return text;
+}
+
+nlohmann::ordered_json parameters_to_json(const Parameters& parameters) {
+    nlohmann::ordered_json result;
+    for (const auto& row : parameter_table())
+        std::visit([&](const auto& value) { result[row.section][row.key] = value; }, row.get(parameters));
+    return result;
+}
+
+}  // namespace endoflow

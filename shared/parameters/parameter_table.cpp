@@ -1,0 +1,212 @@
+#include "shared/parameters/parameter_table.h"
+
+#include <array>
+#include <type_traits>
+
+namespace endoflow {
+
+namespace {
+
+template <class Enum>
+struct EnumNames;
+
+template <>
+struct EnumNames<Dynamics> {
+    static constexpr std::array names{"flow", "geometric"};
+};
+template <>
+struct EnumNames<CurvatureConvention> {
+    static constexpr std::array names{"as-printed", "consistent"};
+};
+template <>
+struct EnumNames<ConstitutiveLaw> {
+    static constexpr std::array names{"linear", "coarse-grained", "lumped"};
+};
+template <>
+struct EnumNames<Transport> {
+    static constexpr std::array names{"cahn-hilliard", "fickian", "advection"};
+};
+
+/// Binds a row to the member it sets. `Member` decides the type a case file must use.
+template <class Section, class Member>
+ParameterRow row(const char* section_name, const char* key, Section Parameters::*section, Member Section::*member,
+                 const char* unit, Bounds bounds, const char* symbol, const char* meaning) {
+    ParameterRow result{section_name, key, unit, bounds, symbol, meaning, {}, nullptr, nullptr};
+    if constexpr (std::is_enum_v<Member>) {
+        for (const char* name : EnumNames<Member>::names) result.choices.emplace_back(name);
+        result.get = [section, member](const Parameters& p) -> ParameterValue {
+            return std::string(EnumNames<Member>::names[static_cast<std::size_t>(p.*section.*member)]);
+        };
+        result.set = [section, member](Parameters& p, const ParameterValue& value) {
+            const auto& name = std::get<std::string>(value);
+            for (std::size_t i = 0; i < EnumNames<Member>::names.size(); ++i)
+                if (name == EnumNames<Member>::names[i]) p.*section.*member = static_cast<Member>(i);
+        };
+    } else if constexpr (std::is_same_v<Member, int>) {
+        result.get = [section, member](const Parameters& p) -> ParameterValue {
+            return static_cast<long long>(p.*section.*member);
+        };
+        result.set = [section, member](Parameters& p, const ParameterValue& value) {
+            p.*section.*member = static_cast<int>(std::get<long long>(value));
+        };
+    } else {
+        result.get = [section, member](const Parameters& p) -> ParameterValue { return p.*section.*member; };
+        result.set = [section, member](Parameters& p, const ParameterValue& value) {
+            p.*section.*member = std::get<Member>(value);
+        };
+    }
+    return result;
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Bounds any() {
+    return {};
+}
+Bounds positive(double highest = infinity) {
+    return {0, highest, true, false};
+}
+Bounds at_least(double lowest, double highest = infinity) {
+    return {lowest, highest, false, false};
+}
+
+using P = Parameters;
+
+std::vector<ParameterRow> case_rows() {
+    using S = CaseParameters;
+    return {
+        row("case", "name", &P::case_, &S::name, "", any(), "", "short name used in plots and reports"),
+        row("case", "description", &P::case_, &S::description, "", any(), "", "what the case is for"),
+    };
+}
+
+std::vector<ParameterRow> domain_rows() {
+    using S = DomainParameters;
+    return {
+        row("domain", "radius", &P::domain, &S::radius, "nm", positive(1e5), "R", "radius of the cylindrical domain"),
+        row("domain", "height", &P::domain, &S::height, "nm", positive(1e5), "",
+            "height of the domain, 0 < z < height"),
+        row("domain", "membrane_height", &P::domain, &S::membrane_height, "nm", positive(1e5), "z0",
+            "height at which the membrane starts flat and stays attached to the outer wall"),
+        row("domain", "pin_half_width", &P::domain, &S::pin_half_width, "nm", positive(1e4), "δ",
+            "half width of the band |z - z0| < δ on r = R where u_z = 0 and the radial traction vanishes"),
+        row("domain", "wall_clearance", &P::domain, &S::wall_clearance, "nm", positive(1e4), "",
+            "a run stops when the membrane comes nearer than this to the bottom, the top or (away from its rim) the "
+            "side wall"),
+    };
+}
+
+std::vector<ParameterRow> fluid_rows() {
+    using S = FluidParameters;
+    return {
+        row("fluid", "viscosity_extracellular", &P::fluid, &S::viscosity_extracellular, "pN µs/nm^2", positive(1e3),
+            "ν1", "viscosity below the membrane (φ = +1); 1e-3 pN µs/nm^2 = 1 mPa s"),
+        row("fluid", "viscosity_intracellular", &P::fluid, &S::viscosity_intracellular, "pN µs/nm^2", positive(1e3),
+            "ν2", "viscosity above the membrane (φ = -1)"),
+        row("fluid", "density", &P::fluid, &S::density, "pN µs^2/nm^4", at_least(0, 1), "ρ",
+            "density of both fluids, used when inertia is on; 1e-9 = 1000 kg/m^3"),
+        row("fluid", "inertia", &P::fluid, &S::inertia, "", any(), "",
+            "Navier-Stokes instead of Stokes flow (phase-field engine only)"),
+        row("fluid", "dynamics", &P::fluid, &S::dynamics, "", any(), "",
+            "flow: the membrane moves with the fluid; geometric: gradient flow of the bending energy, no fluid"),
+    };
+}
+
+std::vector<ParameterRow> membrane_rows() {
+    using S = MembraneParameters;
+    return {
+        row("membrane", "bending_stiffness", &P::membrane, &S::bending_stiffness, "pN nm", positive(1e6), "b_m",
+            "bending stiffness of the bare membrane, b(0); 100 pN nm = 1e-19 J"),
+        row("membrane", "bending_stiffness_coated", &P::membrane, &S::bending_stiffness_coated, "pN nm", positive(1e7),
+            "b(1)", "bending stiffness of the fully coated membrane; Table 1: 12 b_m"),
+        row("membrane", "spontaneous_curvature", &P::membrane, &S::spontaneous_curvature, "1/nm", {-10, 10}, "H0",
+            "spontaneous curvature of the fully coated membrane; Table 1: 1/14.1 nm; > 0 bends it into the cell"),
+        row("membrane", "curvature_convention", &P::membrane, &S::curvature_convention, "", any(), "",
+            "how (b, H0) enter the energy: as-printed (4)-(5) β = b/2, C = 2 H0; consistent (1)-(2) β = b, C = H0"),
+        row("membrane", "constitutive_law", &P::membrane, &S::constitutive_law, "", any(), "",
+            "b(c) and H0(c): linear (Table 1), coarse-grained (A.7), lumped (A.8)"),
+        row("membrane", "inextensible", &P::membrane, &S::inextensible, "", any(), "",
+            "local inextensibility, enforced by the tension λ"),
+    };
+}
+
+std::vector<ParameterRow> molecule_rows() {
+    using S = MoleculeParameters;
+    return {
+        row("molecules", "patch_radius", &P::molecules, &S::patch_radius, "nm", positive(1e5), "r_c",
+            "radius of the initial patch of curvature-inducing molecules"),
+        row("molecules", "transport", &P::molecules, &S::transport, "", any(), "",
+            "cahn-hilliard (23)-(24), fickian (22) or advection (14) only"),
+        row("molecules", "diffusivity", &P::molecules, &S::diffusivity, "nm^2/µs", at_least(0, 1e9), "D_c",
+            "surface diffusivity of the fickian law"),
+        row("molecules", "mobility", &P::molecules, &S::mobility, "nm^3/µs", positive(1e12), "D_c",
+            "mobility of the cahn-hilliard law"),
+        row("molecules", "interface_width", &P::molecules, &S::interface_width, "nm", positive(1e4), "ε_c",
+            "width of the patch's edge, the ε of (24); independent of phase_field.epsilon"),
+        row("molecules", "normal_diffusivity", &P::molecules, &S::normal_diffusivity, "nm^2/µs", at_least(0, 1e12),
+            "D_n", "diffusivity across the layer of (39) (phase-field engine, fickian and advection)"),
+    };
+}
+
+std::vector<ParameterRow> phase_field_rows() {
+    using S = PhaseFieldParameters;
+    return {
+        row("phase_field", "epsilon", &P::phase_field, &S::epsilon, "nm", positive(1e3), "ε", "interface thickness"),
+        row("phase_field", "mobility", &P::phase_field, &S::mobility, "nm^2/(pN µs)", at_least(0, 1e6), "γ",
+            "mobility of the phase field in (35); Table 1's 6.4 nm^3/s is 6.4e-6 nm^2/(pN µs)"),
+        row("phase_field", "tension_extension", &P::phase_field, &S::tension_extension, "1/(pN µs)", at_least(0, 1e9),
+            "ξ", "extension of the tension off the membrane in (34); Table 1: 390.625"),
+        row("phase_field", "cell_size", &P::phase_field, &S::cell_size, "nm", positive(1e3), "h",
+            "size of the cells at the membrane"),
+    };
+}
+
+std::vector<ParameterRow> boundary_integral_rows() {
+    using S = BoundaryIntegralParameters;
+    return {
+        row("boundary_integral", "elements", &P::boundary_integral, &S::elements, "", at_least(8, 2000), "",
+            "number of spline elements along the membrane"),
+    };
+}
+
+std::vector<ParameterRow> time_rows() {
+    using S = TimeParameters;
+    return {
+        row("time", "end", &P::time, &S::end, "µs", at_least(0, 1e9), "T", "simulated time"),
+        row("time", "tolerance", &P::time, &S::tolerance, "", {1e-12, 0.1}, "",
+            "relative accuracy of the time steps where they are error-controlled"),
+        row("time", "initial_step", &P::time, &S::initial_step, "µs", positive(1e3), "", "first time step"),
+        row("time", "max_step", &P::time, &S::max_step, "µs", positive(1e6), "", "largest time step"),
+    };
+}
+
+std::vector<ParameterRow> output_rows() {
+    using S = OutputParameters;
+    return {
+        row("output", "shape_interval", &P::output, &S::shape_interval, "µs", positive(1e9), "",
+            "simulated time between membrane shapes in shapes.h5"),
+        row("output", "field_interval", &P::output, &S::field_interval, "µs", at_least(0, 1e9), "",
+            "simulated time between field files for ParaView; 0 writes none"),
+        row("output", "checkpoint_interval", &P::output, &S::checkpoint_interval, "s", at_least(0, 1e9), "",
+            "wall time between checkpoints"),
+        row("output", "stop_at_budding", &P::output, &S::stop_at_budding, "", any(), "",
+            "end the run when the neck radius falls below 5 nm"),
+    };
+}
+
+std::vector<ParameterRow> build_table() {
+    std::vector<ParameterRow> table;
+    for (auto rows : {case_rows(), domain_rows(), fluid_rows(), membrane_rows(), molecule_rows(), phase_field_rows(),
+                      boundary_integral_rows(), time_rows(), output_rows()})
+        table.insert(table.end(), rows.begin(), rows.end());
+    return table;
+}
+
+}  // namespace
+
+const std::vector<ParameterRow>& parameter_table() {
+    static const std::vector<ParameterRow> table = build_table();
+    return table;
+}
+
+}  // namespace endoflow

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <string>
+
+namespace endoflow {
+
+// Every default is the paper's standard case (Table 1) unless the parameter table says otherwise.
+// Units: nm, µs, pN. Bounds, units, meanings and symbols of all of these stand in parameter_table.cpp.
+
+enum class Dynamics { flow, geometric };
+enum class CurvatureConvention { as_printed, consistent };
+enum class ConstitutiveLaw { linear, coarse_grained, lumped };
+enum class Transport { cahn_hilliard, fickian, advection };
+
+struct CaseParameters {
+    std::string name = "standard";
+    std::string description;
+};
+
+struct DomainParameters {
+    double radius = 80;
+    double height = 160;
+    double membrane_height = 80;
+    double pin_half_width = 5;
+    double wall_clearance = 2;
+};
+
+struct FluidParameters {
+    double viscosity_extracellular = 1e-3;
+    double viscosity_intracellular = 1e-2;
+    double density = 1e-9;
+    bool inertia = false;
+    Dynamics dynamics = Dynamics::flow;
+};
+
+struct MembraneParameters {
+    double bending_stiffness = 100;
+    double bending_stiffness_coated = 1200;
+    double spontaneous_curvature = 0.0709219858;
+    CurvatureConvention curvature_convention = CurvatureConvention::as_printed;
+    ConstitutiveLaw constitutive_law = ConstitutiveLaw::linear;
+    bool inextensible = true;
+};
+
+struct MoleculeParameters {
+    double patch_radius = 36;
+    Transport transport = Transport::cahn_hilliard;
+    double diffusivity = 16;
+    double mobility = 64e3;
+    double interface_width = 1.2;
+    double normal_diffusivity = 1600;
+};
+
+struct PhaseFieldParameters {
+    double epsilon = 1.2;
+    double mobility = 6.4e-6;
+    double tension_extension = 390.625;
+    double cell_size = 1.25;
+};
+
+struct BoundaryIntegralParameters {
+    int elements = 64;
+};
+
+struct TimeParameters {
+    double end = 20;
+    double tolerance = 1e-4;
+    double initial_step = 1e-5;
+    double max_step = 0.2;
+};
+
+struct OutputParameters {
+    double shape_interval = 0.05;
+    double field_interval = 0.5;
+    double checkpoint_interval = 30;
+    bool stop_at_budding = false;
+};
+
+struct Parameters {
+    CaseParameters case_;
+    DomainParameters domain;
+    FluidParameters fluid;
+    MembraneParameters membrane;
+    MoleculeParameters molecules;
+    PhaseFieldParameters phase_field;
+    BoundaryIntegralParameters boundary_integral;
+    TimeParameters time;
+    OutputParameters output;
+};
+
+}  // namespace endoflow

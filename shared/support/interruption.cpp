@@ -1,0 +1,30 @@
+#include "shared/support/interruption.h"
+
+#include <csignal>
+
+namespace endoflow {
+
+namespace {
+
+volatile std::sig_atomic_t received_signal = 0;
+
+void remember_signal(int signal_number) {
+    if (received_signal != 0) {
+        std::signal(signal_number, SIG_DFL);
+        std::raise(signal_number);
+    }
+    received_signal = signal_number;
+}
+
+}  // namespace
+
+void install_signal_handlers() {
+    std::signal(SIGINT, remember_signal);
+    std::signal(SIGTERM, remember_signal);
+}
+
+int interruption_signal() noexcept {
+    return received_signal;
+}
+
+}  // namespace endoflow

@@ -1,0 +1,11 @@
+#pragma once
+
+namespace endoflow {
+
+/// Makes SIGINT and SIGTERM set a flag instead of ending the process; a second SIGINT ends it at once.
+void install_signal_handlers();
+
+/// The signal that asked the run to stop (SIGINT or SIGTERM), 0 if none did. Poll once per step.
+[[nodiscard]] int interruption_signal() noexcept;
+
+}  // namespace endoflow
