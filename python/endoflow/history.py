@@ -1,0 +1,77 @@
+"""history.csv: one row per accepted time step."""
+
+import csv
+
+import numpy as np
+
+from .errors import RERUN, RunDirectoryError
+
+#: Columns every history must have; engines may add more.
+REQUIRED_COLUMNS = (
+    "time_us",
+    "step_us",
+    "neck_radius_nm",
+    "bud_diameter_nm",
+    "bud_height_nm",
+    "membrane_area_nm2",
+    "bending_energy_pN_nm",
+    "molecule_mass_nm2",
+    "area_strain_max",
+    "volume_extracellular_nm3",
+    "wall_s",
+)
+
+#: Column name suffix -> unit, longest suffix first.
+UNIT_OF_SUFFIX = {
+    "_pN_nm": "pN nm",
+    "_pN_per_nm": "pN/nm",
+    "_nm_per_us": "nm/µs",
+    "_per_nm": "1/nm",
+    "_per_us": "1/µs",
+    "_nm3": "nm³",
+    "_nm2": "nm²",
+    "_nm": "nm",
+    "_us": "µs",
+    "_pN": "pN",
+    "_s": "s",
+}
+
+
+def unit_of(column):
+    """Unit of a history column as text, from its name; "1" for a number without unit."""
+    return next((unit for suffix, unit in UNIT_OF_SUFFIX.items() if column.endswith(suffix)), "1")
+
+
+def read_history(path):
+    """Read a history.csv into {column name: float array (rows,)}; empty cells become nan.
+
+    Raises RunDirectoryError when the file is missing, lacks a column, has a malformed row, or when time runs backwards.
+    """
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = [row for row in csv.reader(file) if row]
+    except FileNotFoundError:
+        raise RunDirectoryError(path, "the file is missing", RERUN) from None
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise RunDirectoryError(path, f"cannot be read as CSV ({error})", RERUN) from None
+    if len(rows) < 2:
+        raise RunDirectoryError(path, "holds no time step", RERUN)
+    header = [name.strip() for name in rows[0]]
+    missing = [name for name in REQUIRED_COLUMNS if name not in header]
+    if missing:
+        raise RunDirectoryError(path, f"lacks the column(s) {', '.join(missing)}", "is this a directory of `endoflow run`?")
+    table = np.array([_parse_row(path, number, row, header) for number, row in enumerate(rows[1:], start=2)])
+    history = {name: table[:, column] for column, name in enumerate(header)}
+    if not (np.diff(history["time_us"]) >= 0).all():  # also catches nan
+        raise RunDirectoryError(path, "time_us does not increase from row to row", RERUN)
+    return history
+
+
+def _parse_row(path, number, row, header):
+    """Cells of one row as floats; `number` is its line in the file."""
+    if len(row) != len(header):
+        raise RunDirectoryError(path, f"line {number} has {len(row)} cells where the header has {len(header)}", RERUN)
+    try:
+        return [float(cell) if cell.strip() else np.nan for cell in row]
+    except ValueError as error:
+        raise RunDirectoryError(path, f"line {number}: {error}", RERUN) from None

@@ -1,0 +1,98 @@
+"""A whole run directory."""
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from .errors import RERUN, OutOfRangeError, RunDirectoryError
+from .history import read_history, unit_of
+from .shapes import between, read_shapes
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run. Units: nm, µs, pN.
+
+    record:     run.json as a dict (engine, versions, host, wall times, events, …)
+    parameters: resolved parameters by section, parameters["molecules"]["patch_radius"]
+    history:    {column: array (steps,)}, nan where a cell is empty; history_units: {column: unit}
+    shapes:     list of Shape in order of time
+    """
+
+    directory: Path
+    record: dict
+    parameters: dict
+    history: dict = field(repr=False)
+    shapes: list = field(repr=False)
+
+    @property
+    def engine(self):
+        """Name of the engine: "boundary-integral" or "phase-field"."""
+        return self.record["engine"]
+
+    @property
+    def history_units(self):
+        """{column: unit}, read off the column names."""
+        return {column: unit_of(column) for column in self.history}
+
+    @property
+    def shape_times(self):
+        """Times (µs) of the shapes, shape (number of shapes,)."""
+        return np.array([shape.time for shape in self.shapes])
+
+    def event_time(self, name):
+        """Time (µs) of the first event called `name` (e.g. "budding"), or None."""
+        times = [event["time_us"] for event in self.record.get("events", []) if event.get("name") == name]
+        return float(min(times)) if times else None
+
+    def history_at(self, column, time):
+        """A history column interpolated linearly at `time` (µs; number or array); nan outside the run and next to empty cells."""
+        return np.interp(time, self.history["time_us"], self.history[column], left=np.nan, right=np.nan)
+
+    def shape_at(self, time):
+        """The membrane at `time` (µs), interpolated between the neighbouring shapes at fixed material points.
+
+        Raises OutOfRangeError before the first or after the last shape.
+        """
+        times = self.shape_times
+        tolerance = 1e-9 * max(1.0, abs(times[-1]))
+        nearest = int(np.argmin(np.abs(times - time)))
+        if abs(times[nearest] - time) <= tolerance:
+            return self.shapes[nearest]
+        if not times[0] < time < times[-1]:
+            raise OutOfRangeError(f"{self.directory}: no shape at {time:g} µs; shapes cover {times[0]:g} to {times[-1]:g} µs")
+        after = int(np.searchsorted(times, time))
+        return between(self.shapes[after - 1], self.shapes[after], float(time))
+
+
+def load(directory):
+    """Read a run directory (path) into a Run. Raises RunDirectoryError when something is missing or damaged."""
+    directory = Path(directory)
+    if not directory.is_dir():
+        raise RunDirectoryError(directory, "no such directory", "give the directory that `endoflow run -o` wrote")
+    record = _read_record(directory / "run.json")
+    return Run(
+        directory=directory,
+        record=record,
+        parameters=record["parameters"],
+        history=read_history(directory / "history.csv"),
+        shapes=read_shapes(directory / "shapes.h5"),
+    )
+
+
+def _read_record(path):
+    """run.json as a dict with at least `engine` and `parameters`."""
+    try:
+        record = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise RunDirectoryError(path, "the file is missing", "is this a directory of `endoflow run`?") from None
+    except (OSError, ValueError) as error:
+        raise RunDirectoryError(path, f"cannot be read as JSON ({error})", RERUN) from None
+    if not isinstance(record, dict):
+        raise RunDirectoryError(path, "is not a JSON object", RERUN)
+    for key, kind in (("engine", str), ("parameters", dict)):
+        if not isinstance(record.get(key), kind):
+            raise RunDirectoryError(path, f"has no `{key}`", "is this a directory of `endoflow run`?")
+    return record
