@@ -3,7 +3,7 @@
 metrics.json (schema_version 1); every key ends in its unit, null stands for "does not exist" (no neck, no budding):
 
     schema_version        1
-    runs                  {"a": …, "b": …}: label, directory, engine, version, git_hash, exit_reason, budding_time_us
+    runs                  {"a": …, "b": …}: label, directory, engine, version, git, state, exit_reason, budding_time_us
     common_interval_us    [first, last] time both runs have shapes for
     case_differences      [{key, a, b}]: parameters that differ, the engines' own sections left out
     warnings              [text]
@@ -198,8 +198,8 @@ def warnings(a, b, differences):
     """Sentences a reader must see before trusting the comparison."""
     found = [f"the cases differ in {d['key']}: {d['a']} (A), {d['b']} (B)" for d in differences]
     for letter, run in zip("AB", (a, b)):
-        if not run.record.get("exit_reason"):
-            found.append(f"run {letter} ({run.directory}) records no exit reason: it was cut off or is still going")
+        if run.record.get("state") != "finished":
+            found.append(f"run {letter} ({run.directory}) did not finish: its state is {run.record.get('state')!r}")
     return found
 
 
@@ -210,8 +210,9 @@ def describe(run, label):
         "label": label,
         "directory": str(run.directory),
         "engine": run.engine,
-        "version": record.get("version"),
-        "git_hash": record.get("git_hash"),
+        "version": record["provenance"].get("version"),
+        "git": record["provenance"].get("git"),
+        "state": record.get("state"),
         "exit_reason": record.get("exit_reason"),
         "budding_time_us": run.event_time("budding"),
     }

@@ -43,9 +43,9 @@ class Run:
         return np.array([shape.time for shape in self.shapes])
 
     def event_time(self, name):
-        """Time (µs) of the first event called `name` (e.g. "budding"), or None."""
-        times = [event["time_us"] for event in self.record.get("events", []) if event.get("name") == name]
-        return float(min(times)) if times else None
+        """Time (µs) of the event called `name` (e.g. "budding"), or None."""
+        event = self.record.get("events", {}).get(name)
+        return None if event is None else float(event["time_us"])
 
     def history_at(self, column, time):
         """A history column interpolated linearly at `time` (µs; number or array); nan outside the run and next to empty cells."""
@@ -92,7 +92,7 @@ def _read_record(path):
         raise RunDirectoryError(path, f"cannot be read as JSON ({error})", RERUN) from None
     if not isinstance(record, dict):
         raise RunDirectoryError(path, "is not a JSON object", RERUN)
-    for key, kind in (("engine", str), ("parameters", dict)):
+    for key, kind in (("engine", str), ("parameters", dict), ("provenance", dict), ("events", dict)):
         if not isinstance(record.get(key), kind):
             raise RunDirectoryError(path, f"has no `{key}`", "is this a directory of `endoflow run`?")
     return record

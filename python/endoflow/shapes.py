@@ -16,7 +16,7 @@ FIELDS = ("s", "r", "z", "c", "lambda", "kappa", "u_r", "u_z")
 class Shape:
     """A membrane curve: arrays of one length (n,), ordered from the axis to the rim, at `time` (µs).
 
-    s: the engines' curve quantity of that name, r, z: position (nm), c: molecule concentration (0…1),
+    s: arc length from the axis (nm), r, z: position (nm), c: molecule concentration (0…1),
     lambda_: sharp tension (pN/nm), kappa: total curvature (1/nm), u_r, u_z: velocity (nm/µs).
     """
 

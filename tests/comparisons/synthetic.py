@@ -153,13 +153,17 @@ def write_run(directory, engine, membrane_at, shape_times, points=400, case=None
             write_shape(file, number, time, membrane_at, points)
     budding = budding_time(membrane_at, end)
     record = {
+        "format": "endoflow run",
+        "format_version": 1,
         "engine": engine,
-        "version": "0.0.0",
-        "git_hash": "0000000",
-        "parameters": case or parameters(),
-        "host": "synthetic",
+        "state": "finished",
         "exit_reason": "done",
-        "events": [] if budding is None else [{"name": "budding", "time_us": budding, "neck_radius_nm": 5.0}],
+        "parameters": case or parameters(),
+        "provenance": {"version": "0.0.0", "git": "synthetic", "libraries": {"hdf5": "1.10.8"}, "host": "nowhere", "cores": 2},
+        "steps": {"accepted": 201, "rejected": 3},
+        "wall_s": 20 * end,
+        "phases": {"assembly": {"wall_s": 5.0, "cpu_s": 9.0}},
+        "events": {} if budding is None else {"budding": {"time_us": budding, "neck_radius_nm": 5.0}},
     }
     (directory / "run.json").write_text(json.dumps(record, indent=2))
     return directory
