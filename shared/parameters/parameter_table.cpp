@@ -26,6 +26,14 @@ template <>
 struct EnumNames<Transport> {
     static constexpr std::array names{"cahn-hilliard", "fickian", "advection"};
 };
+template <>
+struct EnumNames<PhaseFieldScheme> {
+    static constexpr std::array names{"paper"};
+};
+template <>
+struct EnumNames<ViscosityMean> {
+    static constexpr std::array names{"arithmetic", "harmonic"};
+};
 
 /// Binds a row to the member it sets. `Member` decides the type a case file must use.
 template <class Section, class Member>
@@ -151,13 +159,43 @@ std::vector<ParameterRow> molecule_rows() {
 std::vector<ParameterRow> phase_field_rows() {
     using S = PhaseFieldParameters;
     return {
+        row("phase_field", "scheme", &P::phase_field, &S::scheme, "", any(), "",
+            "time integration: paper = the first-order splitting of Sec. 3"),
         row("phase_field", "epsilon", &P::phase_field, &S::epsilon, "nm", positive(1e3), "ε", "interface thickness"),
         row("phase_field", "mobility", &P::phase_field, &S::mobility, "nm^2/(pN µs)", at_least(0, 1e6), "γ",
             "mobility of the phase field in (35); Table 1's 6.4 nm^3/s is 6.4e-6 nm^2/(pN µs)"),
-        row("phase_field", "tension_extension", &P::phase_field, &S::tension_extension, "1/(pN µs)", at_least(0, 1e9),
-            "ξ", "extension of the tension off the membrane in (34); Table 1: 390.625"),
+        row("phase_field", "tension_extension", &P::phase_field, &S::tension_extension, "1/(pN µs)", positive(1e9), "ξ",
+            "extension of the tension off the membrane in (34); Table 1: 390.625, which leaks area"),
+        row("phase_field", "stretching_relaxation", &P::phase_field, &S::stretching_relaxation, "", at_least(0, 10),
+            "ζτ", "part of the stretching s - 1 that (34) removes per time step; the paper: 1"),
+        row("phase_field", "stretching_diffusivity", &P::phase_field, &S::stretching_diffusivity, "nm^2/µs",
+            at_least(0, 1e9), "D_s", "diffusivity of the stretching s along the membrane in (38)"),
+        row("phase_field", "profile_mobility", &P::phase_field, &S::profile_mobility, "nm/µs", at_least(0, 1e6), "M",
+            "relaxation of φ towards its equilibrium profile along the normal, without curvature flow; the paper: 0"),
+        row("phase_field", "advection_centering", &P::phase_field, &S::advection_centering, "", at_least(0, 1), "",
+            "weight of the new φ in u·∇φ and g∇φ; 0 = old φ as printed, 0.5 = no anti-diffusion of the profile"),
+        row("phase_field", "viscosity_mean", &P::phase_field, &S::viscosity_mean, "", any(), "ν(φ)",
+            "how the viscosity changes across the layer: arithmetic (the paper) or harmonic"),
         row("phase_field", "cell_size", &P::phase_field, &S::cell_size, "nm", positive(1e3), "h",
             "size of the cells at the membrane"),
+        row("phase_field", "far_refinements", &P::phase_field, &S::far_refinements, "", at_least(0, 6), "",
+            "cells far from the membrane are 2^this times larger; the paper: 3"),
+        row("phase_field", "band_width", &P::phase_field, &S::band_width, "", at_least(2, 20), "",
+            "half width of the band of small cells around the membrane, in units of ε"),
+        row("phase_field", "degree", &P::phase_field, &S::degree, "", at_least(2, 6), "",
+            "polynomial degree of φ, g and f; the paper: 2, which pins the interface to cells of size ε"),
+        row("phase_field", "velocity_degree", &P::phase_field, &S::velocity_degree, "", at_least(2, 6), "",
+            "polynomial degree of the velocity; the pressure is one degree lower; the paper: 2"),
+        row("phase_field", "tension_degree", &P::phase_field, &S::tension_degree, "", at_least(1, 6), "",
+            "polynomial degree of λ; stable for small ξ only below velocity_degree; the paper: 2"),
+        row("phase_field", "surface_degree", &P::phase_field, &S::surface_degree, "", at_least(1, 6), "",
+            "polynomial degree of the stretching and of the molecules; the paper: 2"),
+        row("phase_field", "ramp_steps", &P::phase_field, &S::ramp_steps, "", at_least(1, 1e6), "",
+            "the time step doubles after so many steps until it reaches its limit; the paper: 30"),
+        row("phase_field", "max_step", &P::phase_field, &S::max_step, "µs", positive(1e6), "τ_max",
+            "largest time step of the phase-field engine (time.max_step holds as well); the paper: 2e-3"),
+        row("phase_field", "max_motion", &P::phase_field, &S::max_motion, "nm", positive(1e3), "",
+            "largest motion of the membrane within one time step"),
     };
 }
 

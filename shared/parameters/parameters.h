@@ -11,6 +11,8 @@ enum class Dynamics { flow, geometric };
 enum class CurvatureConvention { as_printed, consistent };
 enum class ConstitutiveLaw { linear, coarse_grained, lumped };
 enum class Transport { cahn_hilliard, fickian, advection };
+enum class PhaseFieldScheme { paper };
+enum class ViscosityMean { arithmetic, harmonic };
 
 struct CaseParameters {
     std::string name = "standard";
@@ -52,10 +54,25 @@ struct MoleculeParameters {
 };
 
 struct PhaseFieldParameters {
+    PhaseFieldScheme scheme = PhaseFieldScheme::paper;
     double epsilon = 1.2;
     double mobility = 6.4e-6;
-    double tension_extension = 390.625;
+    double tension_extension = 0.390625;
+    double stretching_relaxation = 0.05;
+    double stretching_diffusivity = 16;
+    double profile_mobility = 0;
+    double advection_centering = 0;
+    ViscosityMean viscosity_mean = ViscosityMean::arithmetic;
     double cell_size = 1.25;
+    int far_refinements = 3;
+    double band_width = 4.5;
+    int degree = 3;
+    int velocity_degree = 3;
+    int tension_degree = 2;
+    int surface_degree = 3;
+    int ramp_steps = 30;
+    double max_step = 2e-3;
+    double max_motion = 0.2;
 };
 
 struct BoundaryIntegralParameters {

@@ -1,0 +1,69 @@
+#include "command_line.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <new>
+
+#include "shared/parameters/case_file.h"
+#include "shared/support/error.h"
+
+namespace endoflow::cli {
+
+bool parse(CLI::App& app, int argc, char** argv) {
+    try {
+        app.parse(argc, argv);
+        return true;
+    } catch (const CLI::Success& request) {
+        app.exit(request);
+        return false;
+    } catch (const CLI::ParseError& failure) {
+        throw InputError(
+            fmt::format("command line: {}; '{} --help' shows what is allowed", failure.what(), app.get_name()));
+    }
+}
+
+std::optional<RunRequest> parse_run_request(int argc, char** argv, const std::string& engine) {
+    CLI::App app("Runs a case with the " + engine + " engine", "endoflow run " + engine);
+    RunRequest request;
+    std::vector<std::string> overrides;
+    std::optional<std::string> until;
+    app.add_option("CASE", request.case_file, "case file (TOML)")->required();
+    app.add_option("-o,--output", request.directory, "directory of the run [out/CASE/" + engine + "]");
+    app.add_option("--set", overrides, "section.key=value, overrides the case file; may be repeated")
+        ->allow_extra_args(false);
+    app.add_option("--until", until, "time.end in µs");
+    app.add_flag("--restart", request.restart, "continue from the checkpoint in the run's directory");
+    if (!parse(app, argc, argv)) return std::nullopt;
+    if (until) overrides.push_back("time.end=" + *until);
+    request.parameters = read_case(request.case_file, overrides);
+    if (request.directory.empty()) request.directory = std::filesystem::path("out") / request.case_file.stem() / engine;
+    return request;
+}
+
+int exit_code_of_signal(int signal_number) {
+    return 128 + signal_number;
+}
+
+Outcome attempt(const std::function<int()>& body) {
+    constexpr int stopped = static_cast<int>(ExitCode::solver_stopped);
+    try {
+        return {body(), ""};
+    } catch (const Error& error) {
+        return {static_cast<int>(error.code()), error.what()};
+    } catch (const std::filesystem::filesystem_error& failure) {
+        return {static_cast<int>(ExitCode::io), failure.what()};
+    } catch (const std::bad_alloc&) {
+        return {stopped, "out of memory: use fewer elements or larger cells"};
+    } catch (const std::exception& failure) {
+        return {stopped, fmt::format("internal error: {}; please report it with the case file", failure.what())};
+    }
+}
+
+int report(const Outcome& outcome) {
+    std::fflush(stdout);
+    if (!outcome.error.empty()) fmt::print(stderr, "endoflow: {}\n", outcome.error);
+    return outcome.exit_code;
+}
+
+}  // namespace endoflow::cli

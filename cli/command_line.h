@@ -1,0 +1,44 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shared/parameters/parameters.h"
+
+namespace endoflow::cli {
+
+/// What `endoflow run ENGINE …` was asked to do.
+struct RunRequest {
+    std::filesystem::path case_file;
+    std::filesystem::path directory;
+    Parameters parameters;
+    bool restart = false;
+};
+
+/// Parses the arguments behind `endoflow run ENGINE` and reads the case. Returns nothing when --help was answered.
+/// Throws InputError and IoError.
+[[nodiscard]] std::optional<RunRequest> parse_run_request(int argc, char** argv, const std::string& engine);
+
+/// Parses with CLI11; its complaints become InputErrors. Returns false when --help or --version was answered.
+[[nodiscard]] bool parse(CLI::App& app, int argc, char** argv);
+
+/// A run that ended well has an exit code of its own; one that failed has a message too.
+struct Outcome {
+    int exit_code = 0;
+    std::string error;  // empty when nothing failed
+};
+
+/// Calls `body`; every exception becomes an exit code and one line of text.
+[[nodiscard]] Outcome attempt(const std::function<int()>& body);
+
+/// Prints "endoflow: message" on stderr if there is an error; returns the exit code.
+int report(const Outcome& outcome);
+
+/// The exit code that tells a shell that this signal ended the program.
+[[nodiscard]] int exit_code_of_signal(int signal_number);
+
+}  // namespace endoflow::cli

@@ -1,0 +1,117 @@
+// The command `endoflow`. It validates, shows and summarises by itself and hands runs and comparisons to the programs
+// that do them, so that it needs neither MPI nor deal.II.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+
+#include "command_line.h"
+#include "process.h"
+#include "shared/parameters/case_file.h"
+#include "shared/parameters/parameter_rendering.h"
+#include "shared/support/error.h"
+#include "shared/support/nearest_word.h"
+#include "shared/support/version.h"
+#include "summary.h"
+
+namespace endoflow::cli {
+
+namespace {
+
+const std::vector<std::string> engines{"boundary-integral", "phase-field"};
+const std::vector<std::string> commands{"run", "compare", "params", "check", "summary"};
+
+constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, computed by two independent engines
+
+  endoflow run boundary-integral CASE.toml [-o DIR] [--set section.key=value]... [--until T] [--restart]
+  endoflow run phase-field       CASE.toml [the same]     (mpirun -n N endoflow run phase-field ... uses N processes)
+  endoflow compare DIR_A DIR_B [-o DIR]                    two runs: metrics.json, plots, report.html
+  endoflow params [--markdown|--toml]                      every parameter: default, unit, bounds, meaning
+  endoflow check CASE.toml [--set section.key=value]...    validate a case file
+  endoflow summary DIR                                     one screen about a run
+  endoflow --version
+)";
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
+    const auto nearest = nearest_word(word, known);
+    return nearest ? fmt::format("did you mean '{}'?", *nearest) : fmt::format("known: {}", fmt::join(known, ", "));
+}
+
+int run(int argc, char** argv) {
+    const std::string engine = argc > 1 ? argv[1] : "";
+    if (engine == "--help" || engine == "-h" || engine.empty()) {
+        fmt::print("{}", overview);
+        if (engine.empty()) throw InputError("command line: run needs an engine: boundary-integral or phase-field");
+        return 0;
+    }
+    if (engine != engines[0] && engine != engines[1])
+        throw InputError(fmt::format("command line: unknown engine '{}'; {}", engine, did_you_mean(engine, engines)));
+    // Parallelism is between processes there; threads of the linear algebra would only fight for the cores.
+    if (engine == engines[1]) ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
+    become_program("endoflow-" + engine, {argv + 2, argv + argc});
+}
+
+int compare(int argc, char** argv) {
+    become_python("comparisons/compare.py", {argv + 1, argv + argc});
+}
+
+int params(int argc, char** argv) {
+    CLI::App app("Lists every parameter", "endoflow params");
+    bool markdown = false, toml = false;
+    auto* first = app.add_flag("--markdown", markdown, "as Markdown tables");
+    app.add_flag("--toml", toml, "as an annotated case file")->excludes(first);
+    if (!parse(app, argc, argv)) return 0;
+    fmt::print("{}", markdown ? render_parameters_markdown()
+                     : toml   ? render_parameters_toml(Parameters{})
+                              : render_parameters_text());
+    return 0;
+}
+
+int check(int argc, char** argv) {
+    CLI::App app("Validates a case file", "endoflow check");
+    std::string file;
+    std::vector<std::string> overrides;
+    app.add_option("CASE", file, "case file (TOML)")->required();
+    app.add_option("--set", overrides, "section.key=value, overrides the case file")->allow_extra_args(false);
+    if (!parse(app, argc, argv)) return 0;
+    const Parameters parameters = read_case(file, overrides);
+    fmt::print("{}: valid (case '{}')\n", file, parameters.case_.name);
+    return 0;
+}
+
+int summary(int argc, char** argv) {
+    CLI::App app("One screen about a run", "endoflow summary");
+    std::string directory;
+    app.add_option("DIR", directory, "directory of a run")->required();
+    if (!parse(app, argc, argv)) return 0;
+    fmt::print("{}", summarize_run(directory));
+    return 0;
+}
+
+int dispatch(int argc, char** argv) {
+    const std::string command = argc > 1 ? argv[1] : "--help";
+    if (command == "--help" || command == "-h") {
+        fmt::print("{}", overview);
+        return 0;
+    }
+    if (command == "--version") {
+        fmt::print("endoflow {} ({})\n", version(), git_description());
+        return 0;
+    }
+    if (command == "run") return run(argc - 1, argv + 1);
+    if (command == "compare") return compare(argc - 1, argv + 1);
+    if (command == "params") return params(argc - 1, argv + 1);
+    if (command == "check") return check(argc - 1, argv + 1);
+    if (command == "summary") return summary(argc - 1, argv + 1);
+    throw InputError(fmt::format("command line: unknown command '{}'; {}", command, did_you_mean(command, commands)));
+}
+
+}  // namespace
+
+}  // namespace endoflow::cli
+
+int main(int argc, char** argv) {
+    using namespace endoflow::cli;
+    return report(attempt([&] { return dispatch(argc, argv); }));
+}

@@ -1,0 +1,59 @@
+#include "process.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "shared/support/error.h"
+
+namespace endoflow::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void become(const fs::path& program, const std::vector<std::string>& arguments) {
+    std::string first = program.string();
+    std::vector<std::string> copies = arguments;
+    std::vector<char*> raw{first.data()};
+    for (auto& argument : copies) raw.push_back(argument.data());
+    raw.push_back(nullptr);
+    ::execv(first.c_str(), raw.data());
+    throw IoError(fmt::format("{}: cannot be started: {}; build or install it", first, std::strerror(errno)));
+}
+
+std::string python_program() {
+    const char* chosen = std::getenv("ENDOFLOW_PYTHON");
+    return chosen != nullptr ? chosen : ENDOFLOW_PYTHON;
+}
+
+}  // namespace
+
+fs::path program_directory() {
+    return fs::read_symlink("/proc/self/exe").parent_path();
+}
+
+fs::path data_directory() {
+    for (const fs::path& candidate : {program_directory() / "../share/endoflow", fs::path(ENDOFLOW_SOURCE_DIR)})
+        if (fs::is_directory(candidate / "comparisons")) return fs::weakly_canonical(candidate);
+    throw IoError("the scripts of endoflow were not found beside the program (../share/endoflow); reinstall it");
+}
+
+void become_program(const std::string& name, const std::vector<std::string>& arguments) {
+    become(program_directory() / name, arguments);
+}
+
+void become_python(const fs::path& script, const std::vector<std::string>& arguments) {
+    const fs::path data = data_directory();
+    const char* before = std::getenv("PYTHONPATH");
+    const std::string path = (data / "python").string() + (before != nullptr ? ":" + std::string(before) : "");
+    ::setenv("PYTHONPATH", path.c_str(), 1);
+    std::vector<std::string> all{(data / script).string()};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    become(python_program(), all);
+}
+
+}  // namespace endoflow::cli

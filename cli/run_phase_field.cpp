@@ -1,0 +1,80 @@
+// endoflow-phase-field: what `endoflow run phase-field` becomes, one process of possibly many.
+
+#include <mpi.h>
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "command_line.h"
+#include "phasefield/simulation.h"
+#include "shared/output/run_output.h"
+#include "shared/support/error.h"
+#include "shared/support/interruption.h"
+
+namespace endoflow::cli {
+
+namespace {
+
+/// The first process opens the directory; the others follow when that went well.
+std::unique_ptr<RunOutput> open_output(const RunRequest& request, int rank, int processes) {
+    const StartMode mode = request.restart ? StartMode::restart : StartMode::fresh;
+    const auto open = [&](OutputRole role) {
+        return std::make_unique<RunOutput>(request.parameters, phasefield::identity(processes), request.directory, mode,
+                                           role);
+    };
+    std::unique_ptr<RunOutput> output;
+    std::exception_ptr failure;
+    if (rank == 0) {
+        try {
+            output = open(OutputRole::owner);
+        } catch (const std::exception&) {
+            failure = std::current_exception();
+        }
+    }
+    int failed = failure ? 1 : 0;
+    MPI_Bcast(&failed, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    if (failure) std::rethrow_exception(failure);
+    if (failed != 0) throw IoError("the first process could not open the run's directory");
+    return output ? std::move(output) : open(OutputRole::observer);
+}
+
+int run(int argc, char** argv, int rank, int processes) {
+    const auto request = parse_run_request(argc, argv, "phase-field");
+    if (!request) return 0;
+    install_signal_handlers();
+    const auto output = open_output(*request, rank, processes);
+    try {
+        const ExitReason reason = phasefield::simulate(request->parameters, *output, MPI_COMM_WORLD);
+        output->finish(reason);
+        return reason == ExitReason::interrupted ? exit_code_of_signal(interruption_signal()) : 0;
+    } catch (const std::exception& failure) {
+        output->finish_with_error(failure.what());
+        throw;
+    }
+}
+
+/// One process speaks for all. A failure need not have reached the others, which may be waiting for this process, so
+/// several processes end through MPI_Abort; those that do not speak give the one that does time to.
+int end_after_failure(int code, int rank, int processes) {
+    constexpr int seconds_for_the_first_process = 5;
+    if (processes == 1) return code;
+    if (rank != 0) std::this_thread::sleep_for(std::chrono::seconds(seconds_for_the_first_process));
+    MPI_Abort(MPI_COMM_WORLD, code);
+    return code;
+}
+
+}  // namespace
+
+}  // namespace endoflow::cli
+
+int main(int argc, char** argv) {
+    using namespace endoflow;
+    const phasefield::Environment environment(argc, argv);
+    int rank = 0, processes = 1;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &processes);
+    const cli::Outcome outcome = cli::attempt([&] { return cli::run(argc, argv, rank, processes); });
+    if (rank == 0) cli::report(outcome);
+    return outcome.error.empty() ? outcome.exit_code : cli::end_after_failure(outcome.exit_code, rank, processes);
+}

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace endoflow {
+
+/// Everything an engine needs to go on: the engine decides the names. Attributes of HDF5 are limited to 64 kB, so
+/// numbers that come in bulk belong into `arrays`.
+struct Checkpoint {
+    double time_us = 0;
+    std::map<std::string, double> scalars;
+    std::map<std::string, std::vector<double>> arrays;
+    std::map<std::string, std::string> texts;
+
+    /// Throw IoError when the checkpoint holds nothing of that name.
+    [[nodiscard]] double scalar(const std::string& name) const;
+    [[nodiscard]] const std::vector<double>& array(const std::string& name) const;
+    [[nodiscard]] const std::string& text(const std::string& name) const;
+};
+
+/// directory/state.h5, written beside and renamed; the one before is kept as state.previous.h5. Throws IoError.
+void write_checkpoint_file(const std::filesystem::path& directory, const Checkpoint& checkpoint);
+
+/// The latest readable checkpoint: state.h5 or, when that is missing or damaged, the previous one.
+/// Empty when there is none at all; IoError when none of those present can be read.
+[[nodiscard]] std::optional<Checkpoint> read_checkpoint_file(const std::filesystem::path& directory);
+
+}  // namespace endoflow

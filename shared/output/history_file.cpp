@@ -1,0 +1,100 @@
+#include "shared/output/history_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "shared/output/atomic_file.h"
+#include "shared/support/error.h"
+
+namespace endoflow {
+
+namespace {
+
+constexpr std::uintmax_t largest_history = std::uintmax_t{1} << 32;
+
+std::string header(const std::vector<std::string>& extra_columns) {
+    std::string text = fmt::format("{}", fmt::join(common_history_columns(), ","));
+    for (const auto& name : extra_columns) text += "," + name;
+    return text;
+}
+
+std::string number(double value, const std::string& what) {
+    if (!std::isfinite(value))
+        throw SolverError("not-finite", fmt::format("{} became {}", what, value),
+                          "the step that led here should have been rejected: lower time.tolerance or time.max_step");
+    return fmt::format("{:.15g}", value);
+}
+
+/// The complete lines of a history up to a time: a crash may have left half a line at the end.
+std::string kept_rows(const std::string& content, double last_time_us) {
+    std::istringstream lines(content);
+    std::string kept, line;
+    std::getline(lines, line);
+    kept = line + "\n";
+    while (std::getline(lines, line)) {
+        if (lines.eof()) break;
+        double time = 0;
+        const bool readable = std::sscanf(line.c_str(), "%lf", &time) == 1;
+        if (readable && time <= last_time_us * (1 + 1e-12)) kept += line + "\n";
+    }
+    return kept;
+}
+
+}  // namespace
+
+const std::vector<std::string>& common_history_columns() {
+    static const std::vector<std::string> names{"time_us",
+                                                "step_us",
+                                                "neck_radius_nm",
+                                                "bud_diameter_nm",
+                                                "bud_height_nm",
+                                                "membrane_area_nm2",
+                                                "bending_energy_pN_nm",
+                                                "molecule_mass_nm2",
+                                                "area_strain_max",
+                                                "volume_extracellular_nm3",
+                                                "wall_s"};
+    return names;
+}
+
+HistoryFile::HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns)
+    : path_(file), extra_columns_(extra_columns.size()) {
+    write_file_atomically(file, header(extra_columns) + "\n");
+    stream_.open(file, std::ios::app);
+}
+
+HistoryFile::HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns,
+                         double last_time_us)
+    : path_(file), extra_columns_(extra_columns.size()) {
+    const std::string content = read_file(file, largest_history);
+    if (content.substr(0, content.find('\n')) != header(extra_columns))
+        throw IoError(file.string() + ": its columns are not those of this engine; run without --restart");
+    write_file_atomically(file, kept_rows(content, last_time_us));
+    stream_.open(file, std::ios::app);
+}
+
+void HistoryFile::append(const HistoryRow& row) {
+    if (row.extra.size() != extra_columns_)
+        throw std::logic_error("a history row must have one value for each of the engine's own columns");
+    const auto& names = common_history_columns();
+    const auto optional = [&](const std::optional<double>& value, const std::string& name) {
+        return value ? number(*value, name) : std::string();
+    };
+    std::string line = number(row.time_us, names[0]) + "," + number(row.step_us, names[1]) + "," +
+                       optional(row.neck_radius_nm, names[2]) + "," + optional(row.bud_diameter_nm, names[3]);
+    const double rest[] = {row.bud_height_nm,
+                           row.membrane_area_nm2,
+                           row.bending_energy_pN_nm,
+                           row.molecule_mass_nm2,
+                           row.area_strain_max,
+                           row.volume_extracellular_nm3,
+                           row.wall_s};
+    for (std::size_t i = 0; i < std::size(rest); ++i) line += "," + number(rest[i], names[4 + i]);
+    for (const double value : row.extra) line += "," + number(value, "a column of history.csv");
+    stream_ << line << '\n' << std::flush;
+    if (!stream_) throw IoError(path_.string() + ": a row cannot be written; check the disk's space and permissions");
+}
+
+}  // namespace endoflow

@@ -1,0 +1,58 @@
+#include "shared/output/live_line.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+
+namespace endoflow {
+
+namespace {
+
+constexpr double seconds_between_updates = 0.1;
+constexpr double seconds_between_plain_lines = 10;
+
+}  // namespace
+
+std::string format_duration(double seconds) {
+    if (!std::isfinite(seconds) || seconds < 0 || seconds > 1e8) return "?";
+    const auto whole = static_cast<long>(std::lround(seconds));
+    if (whole < 3600) return fmt::format("{}:{:02d}", whole / 60, whole % 60);
+    return fmt::format("{}:{:02d}:{:02d}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+LiveLine::LiveLine(std::FILE* stream, double start_time_us, double end_time_us)
+    : stream_(stream),
+      terminal_(isatty(fileno(stream)) != 0),
+      start_time_us_(start_time_us),
+      end_time_us_(end_time_us),
+      begin_(Clock::now()),
+      last_shown_(begin_ - std::chrono::hours(1)) {}
+
+void LiveLine::update(const HistoryRow& row) {
+    const auto now = Clock::now();
+    const double pause = terminal_ ? seconds_between_updates : seconds_between_plain_lines;
+    if (std::chrono::duration<double>(now - last_shown_).count() < pause) return;
+    last_shown_ = now;
+    const double elapsed = std::chrono::duration<double>(now - begin_).count();
+    const double done = (row.time_us - start_time_us_) / (end_time_us_ - start_time_us_);
+    const std::string neck = row.neck_radius_nm ? fmt::format("{:.2f} nm", *row.neck_radius_nm) : "-";
+    const std::string line =
+        fmt::format("t = {:.5g} of {:g} µs   step {:.3g} µs   neck {}   height {:.2f} nm   strain {:.1e}   left {}",
+                    row.time_us, end_time_us_, row.step_us, neck, row.bud_height_nm, row.area_strain_max,
+                    format_duration(elapsed * (1 - done) / done));
+    if (terminal_)
+        fmt::print(stream_, "\r\x1b[K{}", line);
+    else
+        fmt::print(stream_, "{}\n", line);
+    open_ = terminal_;
+    std::fflush(stream_);
+}
+
+void LiveLine::finish() {
+    if (open_) fmt::print(stream_, "\n");
+    open_ = false;
+    std::fflush(stream_);
+}
+
+}  // namespace endoflow

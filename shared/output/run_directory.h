@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+
+namespace endoflow {
+
+/// The names in a run's directory; every reader and writer takes them from here.
+struct RunDirectory {
+    std::filesystem::path root;
+
+    [[nodiscard]] std::filesystem::path record() const { return root / "run.json"; }
+    [[nodiscard]] std::filesystem::path history() const { return root / "history.csv"; }
+    [[nodiscard]] std::filesystem::path shapes() const { return root / "shapes.h5"; }
+    [[nodiscard]] std::filesystem::path log() const { return root / "log.txt"; }
+    [[nodiscard]] std::filesystem::path checkpoint() const { return root / "checkpoint"; }
+    [[nodiscard]] std::filesystem::path fields() const { return root / "fields"; }
+    [[nodiscard]] std::filesystem::path field_index() const { return root / "fields.pvd"; }
+    [[nodiscard]] std::filesystem::path earlier() const { return root / "earlier"; }
+
+    /// Makes root and checkpoint/; moves a run that is already there to earlier/N/. Throws IoError.
+    void prepare_fresh() const;
+    /// Throws IoError unless root holds a run that can be continued.
+    void require_run() const;
+};
+
+}  // namespace endoflow

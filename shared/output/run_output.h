@@ -1,0 +1,106 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shared/geometry/membrane_curve.h"
+#include "shared/output/checkpoint.h"
+#include "shared/output/history_file.h"
+#include "shared/output/provenance.h"
+#include "shared/parameters/parameters.h"
+
+namespace endoflow {
+
+/// Why a run ended without an error.
+enum class ExitReason { done, budded, neck_closed, interrupted };
+
+[[nodiscard]] std::string to_string(ExitReason reason);
+
+/// What an engine says of itself once.
+struct EngineIdentity {
+    std::string name;                          // "boundary-integral" or "phase-field"
+    LibraryVersions libraries;                 // what it is linked to
+    std::vector<std::string> history_columns;  // its own columns of history.csv, names ending in their unit
+    int processes = 1;
+    int threads = 1;
+};
+
+enum class StartMode { fresh, restart };
+
+/// With several processes one owns the directory; the observers read the checkpoint and write nothing.
+enum class OutputRole { owner, observer };
+
+/// The only door to a run's directory: run.json, history.csv, shapes.h5, checkpoint/, log.txt and the live line.
+/// Every process of a parallel run holds one; those of observers do nothing but hand out the checkpoint.
+///
+/// A fresh start in a directory that already holds a run moves that run to earlier/N/ inside it: nothing is lost.
+/// A restart drops what was written after the checkpoint and goes on from there.
+class RunOutput {
+  public:
+    /// Creates the directory and its files, run.json with state "running". Throws IoError.
+    RunOutput(const Parameters& parameters, EngineIdentity engine, std::filesystem::path directory, StartMode mode,
+              OutputRole role = OutputRole::owner);
+    ~RunOutput();
+    RunOutput(const RunOutput&) = delete;
+    RunOutput& operator=(const RunOutput&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& directory() const;
+
+    /// The checkpoint to continue from: set in a restart, empty in a fresh run.
+    [[nodiscard]] const std::optional<Checkpoint>& restart_point() const;
+
+    /// Appends to history.csv and moves the live line. wall_s is filled in here.
+    void record_step(HistoryRow row);
+    void count_rejected_step();
+
+    /// Appends to shapes.h5.
+    void write_shape(double time_us, const MembraneCurve& curve);
+
+    /// run.json events: {"budding": {"time_us": …, values…}}. A name recorded before is not replaced.
+    void record_event(const std::string& name, double time_us, const std::map<std::string, double>& values = {});
+
+    /// run.json notes: anything an engine wants to say about the run as a whole.
+    void note(const std::string& key, const nlohmann::ordered_json& value);
+
+    /// Adds to the phase's totals in run.json, s.
+    void add_phase_time(const std::string& phase, double wall_s, double cpu_s);
+
+    /// One line into log.txt; warnings also to stderr.
+    void log_info(const std::string& message);
+    void log_warning(const std::string& message);
+
+    /// True when output.checkpoint_interval of wall time has passed since the last checkpoint.
+    [[nodiscard]] bool checkpoint_due() const;
+    void write_checkpoint(const Checkpoint& checkpoint);
+
+    /// The last word of a run that ended well or was interrupted.
+    void finish(ExitReason reason);
+    /// The last word of a run that a failure ended; the message goes to log.txt and run.json.
+    void finish_with_error(const std::string& message);
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+/// Measures wall and CPU time of a phase from construction to destruction and adds it to run.json.
+class PhaseTimer {
+  public:
+    PhaseTimer(RunOutput& output, std::string phase);
+    ~PhaseTimer();
+    PhaseTimer(const PhaseTimer&) = delete;
+    PhaseTimer& operator=(const PhaseTimer&) = delete;
+
+  private:
+    RunOutput& output_;
+    std::string phase_;
+    double wall_start_;
+    double cpu_start_;
+};
+
+}  // namespace endoflow
