@@ -4,17 +4,23 @@
 # directory of its own in the build tree that holds nothing but a link to the part, and a target sees the directories
 # of the parts it links, no others. So boundary_integral/ cannot include phasefield/, and neither can include cli/.
 
+get_filename_component(ENDOFLOW_ROOT ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
+
 function(endoflow_part_directory part result)
   set(root ${CMAKE_BINARY_DIR}/include/${part})
   file(MAKE_DIRECTORY ${root})
   if(NOT EXISTS ${root}/${part})
-    file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${part} ${root}/${part} SYMBOLIC)
+    file(CREATE_LINK ${ENDOFLOW_ROOT}/${part} ${root}/${part} SYMBOLIC)
   endif()
   set(${result} ${root} PARENT_SCOPE)
 endfunction()
 
 add_library(endoflow_warnings INTERFACE)
 target_compile_options(endoflow_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # GCC bug 105651: "string" + temporary string is reported as an overlapping copy.
+  target_compile_options(endoflow_warnings INTERFACE -Wno-restrict)
+endif()
 
 add_library(endoflow_sanitizers INTERFACE)
 if(ENDOFLOW_SANITIZE)

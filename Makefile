@@ -1,0 +1,74 @@
+# The project's commands. The two a newcomer needs: `make demo` and `make test`.
+#
+#   make demo       install what is missing, build, run both engines on cases/demo.toml, compare: out/demo/report.html
+#   make test       the same set-up, then all tests, clang-format and clang-tidy   (SANITIZE=1: with sanitizers)
+#   make build      build/endoflow and its engines
+#   make install    DESTDIR and prefix as usual          make package   a Debian package in build/
+#   make format     clang-format on all sources          make lint      clang-format and clang-tidy, check only
+# PHASEFIELD=OFF leaves the phase-field engine (deal.II, MPI) out of all of them.
+
+PHASEFIELD ?= ON
+SANITIZE ?= 0
+CORES ?= $(shell nproc)
+prefix ?= /usr/local
+
+ifeq ($(SANITIZE),1)
+  preset := sanitize
+  build := build-sanitize
+else
+  preset := release
+  build := build
+endif
+
+groups := base $(if $(filter ON,$(PHASEFIELD)),phasefield)
+engines := boundary-integral $(if $(filter ON,$(PHASEFIELD)),phase-field)
+
+# OpenMPI refuses to run as root unless told twice that this is meant.
+ifeq ($(shell id -u),0)
+  export OMPI_ALLOW_RUN_AS_ROOT := 1
+  export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
+endif
+
+.PHONY: all demo test build configure packages test-packages run-demo install package format lint clean
+
+all: build
+
+packages:
+	@tools/install_packages $(groups)
+
+test-packages:
+	@tools/install_packages $(groups) test
+
+configure:
+	@cmake --preset $(preset) -DENDOFLOW_PHASEFIELD=$(PHASEFIELD) > $(build).configure.log 2>&1 \
+	  || { cat $(build).configure.log; exit 1; }
+	@rm -f $(build).configure.log
+
+build: packages
+	@$(MAKE) --no-print-directory configure
+	cmake --build $(build) --target programs
+
+demo: build
+	tools/demo $(build) $(CORES) $(engines)
+
+test: test-packages
+	@$(MAKE) --no-print-directory configure
+	cmake --build $(build)
+	@$(MAKE) --no-print-directory lint
+	ctest --test-dir $(build) --output-on-failure
+
+install: build
+	DESTDIR=$(DESTDIR) cmake --install $(build) --prefix $(prefix)
+
+package: build
+	cd $(build) && cpack
+
+format:
+	git ls-files '*.h' '*.cpp' | xargs clang-format -i
+
+lint:
+	git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
+	tools/clang_tidy $(build) $(CORES)
+
+clean:
+	rm -rf build build-debug build-sanitize

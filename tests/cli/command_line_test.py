@@ -1,0 +1,139 @@
+"""The command line as a script sees it: exit codes, one line on stderr, nothing written when the input is bad.
+
+    python3 command_line_test.py PATH/TO/endoflow
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM = None
+
+
+def endoflow(*arguments, cwd=None):
+    return subprocess.run([PROGRAM, *map(str, arguments)], cwd=cwd, capture_output=True, text=True, timeout=120)
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.root = Path(holder.name)
+
+    def case(self, text):
+        file = self.root / "case.toml"
+        file.write_text(text)
+        return file
+
+    def assert_refused(self, result, code, *words):
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def test_help_and_version(self):
+        for arguments in (["--help"], ["--version"], ["run", "--help"], ["run", "boundary-integral", "--help"],
+                          ["params", "--help"], ["check", "--help"], ["summary", "--help"]):
+            with self.subTest(arguments):
+                result = endoflow(*arguments)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertTrue(result.stdout)
+
+    def test_bad_command_lines(self):
+        self.assert_refused(endoflow("rnu"), 2, "did you mean 'run'")
+        self.assert_refused(endoflow("run", "phase-feild"), 2, "did you mean 'phase-field'")
+        self.assert_refused(endoflow("run", "boundary-integral"), 2, "CASE")
+        self.assert_refused(endoflow("run", "boundary-integral", self.case(""), "--nonsense"), 2, "nonsense")
+        self.assert_refused(endoflow("params", "--toml", "--markdown"), 2)
+        self.assert_refused(endoflow("check"), 2, "CASE")
+
+    def test_bad_case_writes_nothing(self):
+        output = self.root / "run"
+        for text, words in (("[time]\nned = 1\n", ("case.toml:2:1", "time.end")),
+                            ("[time]\nend = 'x'\n", ("case.toml:2:7", "a number")),
+                            ("[domain]\nradius = -3\n", ("domain.radius", "> 0")),
+                            ("[time\n", ("case.toml:1", "TOML"))):
+            with self.subTest(text):
+                result = endoflow("run", "boundary-integral", self.case(text), "-o", output)
+                self.assert_refused(result, 2, *words)
+                self.assertFalse(output.exists())
+        self.assert_refused(endoflow("run", "boundary-integral", self.root / "none.toml", "-o", output), 2, "none.toml")
+        self.assert_refused(endoflow("check", self.case("[fluid]\ninertia = 3\n")), 2, "true or false")
+        self.assertFalse(output.exists())
+
+    def test_bad_case_leaves_an_earlier_run_alone(self):
+        output = self.root / "run"
+        output.mkdir()
+        (output / "run.json").write_text("precious")
+        self.assert_refused(endoflow("run", "boundary-integral", self.case("[x]\n"), "-o", output), 2)
+        self.assertEqual((output / "run.json").read_text(), "precious")
+
+    def test_output_that_cannot_be_written(self):
+        blocked = self.root / "file"
+        blocked.write_text("x")
+        self.assert_refused(endoflow("run", "boundary-integral", self.case(""), "-o", blocked / "run"), 4, "file")
+        self.assert_refused(endoflow("run", "boundary-integral", self.case(""), "-o", "/proc/none"), 4)
+        self.assertEqual(blocked.read_text(), "x")
+
+    def test_restart_without_a_run(self):
+        result = endoflow("run", "boundary-integral", self.case(""), "-o", self.root / "none", "--restart")
+        self.assert_refused(result, 4, "run without --restart")
+
+    def test_check_and_params(self):
+        self.assertEqual(endoflow("check", self.case("")).returncode, 0)
+        toml = endoflow("params", "--toml")
+        self.assertEqual(toml.returncode, 0)
+        self.assertEqual(endoflow("check", self.case(toml.stdout)).returncode, 0)
+        self.assertIn("| `patch_radius` |", endoflow("params", "--markdown").stdout)
+        self.assertIn("molecules.patch_radius", endoflow("params").stdout)
+
+    def test_summary_of_nothing(self):
+        self.assert_refused(endoflow("summary", self.root), 4, "run.json")
+        (self.root / "run.json").write_text("{")
+        self.assert_refused(endoflow("summary", self.root), 4, "damaged")
+
+    def test_a_short_run_is_complete(self):
+        output = self.root / "run"
+        result = endoflow("run", "boundary-integral", self.case(""), "-o", output, "--until", "0.0002")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        record = json.loads((output / "run.json").read_text())
+        self.assertEqual((record["state"], record["exit_reason"]), ("finished", "done"))
+        self.assertAlmostEqual(record["time_us"], 0.0002, delta=1e-12)
+        for name in ("history.csv", "shapes.h5", "log.txt", "checkpoint/state.h5"):
+            self.assertTrue((output / name).exists(), name)
+        summary = endoflow("summary", output)
+        self.assertEqual(summary.returncode, 0, summary.stderr)
+        self.assertIn("membrane_area_nm2", summary.stdout)
+
+    def test_interruption_leaves_a_checkpoint_to_restart_from(self):
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            with self.subTest(code):
+                output = self.root / str(code)
+                case = self.case("[time]\nend = 5\n")
+                run = subprocess.Popen([PROGRAM, "run", "boundary-integral", case, "-o", output],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+                history = output / "history.csv"
+                for _ in range(600):
+                    if history.exists() and history.read_text().count("\n") > 3:
+                        break
+                    time.sleep(0.1)
+                run.send_signal(number)
+                run.communicate(timeout=120)
+                self.assertEqual(run.returncode, code)
+                reached = json.loads((output / "run.json").read_text())["time_us"]
+                result = endoflow("run", "boundary-integral", case, "-o", output, "--restart", "--until",
+                                  f"{reached * 1.05:.17g}")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                times = [float(row.split(",")[0]) for row in history.read_text().splitlines()[1:]]
+                self.assertEqual(times, sorted(set(times)))
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()

@@ -1,0 +1,96 @@
+#include "shared/geometry/observables.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+using namespace endoflow;
+using std::numbers::pi;
+
+namespace {
+
+const BendingModel model{MembraneParameters{}};
+
+MembraneCurve curve_of(int points, double t_end, double (*r)(double), double (*z)(double), double (*kappa)(double)) {
+    MembraneCurve curve;
+    for (int i = 0; i < points; ++i) {
+        const double t = t_end * i / (points - 1);
+        curve.r.push_back(r(t));
+        curve.z.push_back(z(t));
+        curve.kappa.push_back(kappa(t));
+    }
+    curve.r.front() = 0;
+    curve.c.assign(curve.r.size(), 0.0);
+    return curve;
+}
+
+/// Spherical cap of radius 20 nm, polar angle 0 … 0.75π, so that it narrows towards its rim.
+MembraneCurve sphere_cap(int points) {
+    return curve_of(
+        points, 0.75 * pi, [](double t) { return 20 * std::sin(t); }, [](double t) { return 20 * std::cos(t); },
+        [](double) { return 2.0 / 20; });
+}
+
+/// A smooth bud: r = 30 t + 25 sin 2πt has a widest and a narrowest place in closed form.
+constexpr double amplitude = 25, slope = 30;
+double bud_r(double t) {
+    return slope * t + amplitude * std::sin(2 * pi * t);
+}
+double bud_z(double t) {
+    return 40 * std::cos(0.5 * pi * t) * std::cos(0.5 * pi * t);
+}
+
+}  // namespace
+
+TEST_CASE("area, energy and volume of a spherical cap converge with order 4") {
+    const double radius = 20, angle = 0.75 * pi, height = radius * (1 - std::cos(angle));
+    const double area = 2 * pi * radius * height;
+    const double volume = pi * height * height * (3 * radius - height) / 3;
+    const double energy = 0.5 * 50 * (2 / radius) * (2 / radius) * area;  // β(0) = b_m/2, C(0) = 0
+    const auto coarse = measure(sphere_cap(41), model), fine = measure(sphere_cap(81), model);
+    // The far end of the spline is natural, a local O(h²) error in curvature: order ≥ 3 overall in area and volume.
+    const double order = std::log2(std::abs(coarse.membrane_area - area) / std::abs(fine.membrane_area - area));
+    CHECK(order > 2.8);
+    CHECK(fine.membrane_area == Approx(area).epsilon(1e-5));
+    CHECK(fine.extracellular_volume == Approx(volume).epsilon(1e-5));
+    CHECK(fine.bending_energy == Approx(energy).epsilon(1e-5));
+    CHECK(fine.bud_height == Approx(height).epsilon(1e-12));
+    CHECK(fine.molecule_mass == 0);
+}
+
+TEST_CASE("the neck and the lateral diameter of a bud are found between samples") {
+    const double cosine = -slope / (2 * pi * amplitude);  // r' = 0 at 2πt = ±acos(cosine)
+    const double t_wide = std::acos(cosine) / (2 * pi), t_neck = 1 - t_wide;
+    const auto curve = curve_of(201, 1.0, bud_r, bud_z, [](double) { return 0.0; });
+    const auto neck = find_neck(curve);
+    REQUIRE(neck.has_value());
+    // Cubic spline with 200 intervals: (1/200)⁴ times fourth derivatives of order (2π)⁴·25 / 384 gives 7e-8 nm.
+    CHECK(neck->radius == Approx(bud_r(t_neck)).margin(1e-6));
+    CHECK(neck->lateral_diameter == Approx(2 * bud_r(t_wide)).margin(1e-6));
+    CHECK(neck->z == Approx(bud_z(t_neck)).margin(1e-4));
+    CHECK(neck->s > 0);
+}
+
+TEST_CASE("a membrane that widens all the way has no neck, and a flat one no height, energy or volume") {
+    const auto flat = curve_of(
+        50, 80.0, [](double t) { return t; }, [](double) { return 80.0; }, [](double) { return 0.0; });
+    const auto result = measure(flat, model);
+    CHECK_FALSE(result.neck.has_value());
+    CHECK(result.bud_height == 0);
+    CHECK(result.membrane_area == Approx(pi * 6400).epsilon(1e-13));
+    CHECK(result.bending_energy == 0);
+    CHECK(result.extracellular_volume == 0);
+}
+
+TEST_CASE("a curve that is no membrane is refused") {
+    MembraneCurve curve;
+    CHECK_THROWS_AS(measure(curve, model), std::invalid_argument);
+    auto shifted = sphere_cap(20);
+    shifted.r.front() = 3;
+    CHECK_THROWS_AS(measure(shifted, model), std::invalid_argument);
+    auto repeated = sphere_cap(20);
+    repeated.r[5] = repeated.r[4];
+    repeated.z[5] = repeated.z[4];
+    CHECK_THROWS_AS(measure(repeated, model), std::invalid_argument);
+}

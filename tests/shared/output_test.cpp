@@ -1,0 +1,206 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "shared/output/atomic_file.h"
+#include "shared/output/checkpoint.h"
+#include "shared/output/hdf5_file.h"
+#include "shared/output/live_line.h"
+#include "shared/output/run_output.h"
+#include "shared/output/shapes_file.h"
+#include "shared/support/error.h"
+#include "temporary_directory.h"
+
+using namespace endoflow;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string content(const std::filesystem::path& file) {
+    return read_file(file, 1 << 20);
+}
+
+HistoryRow row_at(double time, std::vector<double> extra = {7}) {
+    HistoryRow row;
+    row.time_us = time;
+    row.extra = std::move(extra);
+    return row;
+}
+
+MembraneCurve small_curve(double scale) {
+    const std::vector<double> x{0, scale, 2 * scale};
+    return {x, x, x, x, x, x, x, x};
+}
+
+EngineIdentity test_engine() {
+    return {.name = "boundary-integral", .libraries = {{"test", "1.0"}}, .history_columns = {"own_nm"}};
+}
+
+}  // namespace
+
+TEST_CASE("files are replaced whole or not at all") {
+    const TemporaryDirectory directory;
+    const auto file = directory.path() / "a.txt";
+    write_file_atomically(file, "one");
+    write_file_atomically(file, "two");
+    CHECK(content(file) == "two");
+    CHECK_THROWS_AS(write_file_atomically(directory.path() / "none" / "a.txt", "x"), IoError);
+    CHECK_THROWS_AS(read_file(file, 2), IoError);
+    CHECK_THROWS_AS(read_file(directory.path() / "none", 2), IoError);
+}
+
+TEST_CASE("history.csv has named columns, empty cells for what does not exist, and continues after a crash") {
+    const TemporaryDirectory directory;
+    const auto file = directory.path() / "history.csv";
+    {
+        HistoryFile history(file, {"own_nm"});
+        auto row = row_at(0.5);
+        history.append(row);
+        row.time_us = 1;
+        row.neck_radius_nm = 12.5;
+        history.append(row);
+        history.append(row_at(1.5));
+    }
+    std::ofstream(file, std::ios::app) << "2.0,torn";
+    {
+        HistoryFile history(file, {"own_nm"}, 1.0);
+        history.append(row_at(1.25));
+    }
+    std::istringstream lines(content(file));
+    std::string header, first, second, third, fourth;
+    std::getline(lines, header);
+    std::getline(lines, first);
+    std::getline(lines, second);
+    std::getline(lines, third);
+    CHECK(header.rfind("time_us,step_us,neck_radius_nm,", 0) == 0);
+    CHECK_THAT(header, Catch::Matchers::EndsWith("wall_s,own_nm"));
+    CHECK(first.rfind("0.5,0,,", 0) == 0);
+    CHECK(second.rfind("1,0,12.5,", 0) == 0);
+    CHECK(third.rfind("1.25,", 0) == 0);
+    CHECK_FALSE(std::getline(lines, fourth));
+    CHECK_THROWS_AS(HistoryFile(file, {"other"}, 1.0), IoError);
+}
+
+TEST_CASE("no value that is not finite reaches a file") {
+    const TemporaryDirectory directory;
+    HistoryFile history(directory.path() / "history.csv", {"own_nm"});
+    CHECK_THROWS_AS(history.append(row_at(NAN)), SolverError);
+    CHECK_THROWS_AS(history.append(row_at(1, {INFINITY})), SolverError);
+    ShapesFile shapes(directory.path() / "shapes.h5");
+    auto curve = small_curve(1);
+    curve.c[1] = NAN;
+    CHECK_THROWS_AS(shapes.append(0, curve), SolverError);
+    CHECK(shapes.count() == 0);
+}
+
+TEST_CASE("shapes.h5 holds every column with its unit, and a restart drops what came later") {
+    const TemporaryDirectory directory;
+    const auto file = directory.path() / "shapes.h5";
+    {
+        ShapesFile shapes(file);
+        for (const double time : {0.0, 0.1, 0.2}) shapes.append(time, small_curve(1 + time));
+    }
+    ShapesFile continued(file, 0.1);
+    CHECK(continued.count() == 2);
+    continued.append(0.15, small_curve(9));
+    const Hdf5File hdf5(file, Hdf5File::Mode::read);
+    CHECK(hdf5.members("/shapes") == std::vector<std::string>{"000000", "000001", "000002"});
+    CHECK(hdf5.members("/shapes/000001") ==
+          std::vector<std::string>{"c", "kappa", "lambda", "r", "s", "u_r", "u_z", "z"});
+    CHECK(hdf5.read_number_attribute("/shapes/000002", "time") == 0.15);
+    CHECK(hdf5.read_text_attribute("/shapes/000002/lambda", "unit") == "pN/nm");
+    CHECK(hdf5.read_array("/shapes/000002/r") == std::vector<double>{0, 9, 18});
+}
+
+TEST_CASE("a checkpoint comes back bit by bit, the one before serves when it is damaged") {
+    const TemporaryDirectory directory;
+    Checkpoint checkpoint;
+    checkpoint.time_us = 0.1;
+    checkpoint.scalars["step"] = 1.0 / 3;
+    checkpoint.arrays["x"] = {1e-300, -0.0, 3.14};
+    checkpoint.arrays["empty"] = {};
+    checkpoint.texts["text"] = "µs\n\"";
+    CHECK_FALSE(read_checkpoint_file(directory.path()).has_value());
+    write_checkpoint_file(directory.path(), checkpoint);
+    checkpoint.time_us = 0.2;
+    write_checkpoint_file(directory.path(), checkpoint);
+    const auto latest = read_checkpoint_file(directory.path());
+    REQUIRE(latest.has_value());
+    CHECK(latest->time_us == 0.2);
+    CHECK(latest->scalars == checkpoint.scalars);
+    CHECK(latest->arrays == checkpoint.arrays);
+    CHECK(latest->texts == checkpoint.texts);
+    CHECK_THROWS_AS(latest->array("none"), IoError);
+
+    std::filesystem::resize_file(directory.path() / "state.h5", 100);
+    CHECK(read_checkpoint_file(directory.path())->time_us == 0.1);
+    std::ofstream(directory.path() / "state.previous.h5") << "foreign";
+    CHECK_THROWS_AS(read_checkpoint_file(directory.path()), IoError);
+}
+
+TEST_CASE("a run's directory: record, events, restart, and an earlier run that is kept") {
+    const TemporaryDirectory directory;
+    Parameters parameters;
+    parameters.time.end = 2;
+    const auto root = directory.path() / "run";
+    const auto record = [&] { return nlohmann::json::parse(content(root / "run.json")); };
+    {
+        RunOutput output(parameters, test_engine(), root, StartMode::fresh);
+        CHECK(record()["state"] == "running");
+        output.record_step(row_at(0.5));
+        output.write_shape(0.5, small_curve(1));
+        output.count_rejected_step();
+        output.record_event("budding", 0.45, {{"neck_radius_nm", 5.0}});
+        output.record_event("budding", 0.46);
+        Checkpoint checkpoint;
+        checkpoint.time_us = 0.5;
+        output.write_checkpoint(checkpoint);
+        output.record_step(row_at(1.0));
+    }
+    {
+        RunOutput output(parameters, test_engine(), root, StartMode::restart);
+        REQUIRE(output.restart_point().has_value());
+        CHECK(output.restart_point()->time_us == 0.5);
+        const RunOutput observer(parameters, test_engine(), root, StartMode::restart, OutputRole::observer);
+        CHECK(observer.restart_point()->time_us == 0.5);
+        output.record_step(row_at(2.0));
+        output.finish(ExitReason::done);
+    }
+    const auto final_record = record();
+    CHECK(final_record["state"] == "finished");
+    CHECK(final_record["exit_reason"] == "done");
+    CHECK(final_record["steps"]["accepted"] == 2);
+    CHECK(final_record["steps"]["rejected"] == 1);
+    CHECK(final_record["restarts"] == 1);
+    CHECK(final_record["events"]["budding"]["time_us"] == 0.45);
+    CHECK(final_record["parameters"]["molecules"]["patch_radius"] == 36.0);
+    CHECK(final_record["provenance"]["libraries"].contains("hdf5"));
+
+    RunOutput(parameters, test_engine(), root, StartMode::fresh).finish(ExitReason::done);
+    CHECK(nlohmann::json::parse(content(root / "earlier/1/run.json")) == final_record);
+    CHECK_THROWS_AS(RunOutput(parameters, test_engine(), directory.path() / "empty", StartMode::restart), IoError);
+    auto other = test_engine();
+    other.name = "phase-field";
+    CHECK_THROWS_AS(RunOutput(parameters, other, root / "earlier/1", StartMode::restart), IoError);
+}
+
+TEST_CASE("a directory that cannot be made is one clear error") {
+    const TemporaryDirectory directory;
+    std::ofstream(directory.path() / "file") << "x";
+    try {
+        const RunOutput output(Parameters{}, test_engine(), directory.path() / "file" / "run", StartMode::fresh);
+        FAIL("no error");
+    } catch (const IoError& error) {
+        CHECK(error.code() == ExitCode::io);
+        CHECK_THAT(error.what(), Contains("file/run"));
+    }
+}
+
+TEST_CASE("durations read like a clock") {
+    CHECK(format_duration(42) == "0:42");
+    CHECK(format_duration(727) == "12:07");
+    CHECK(format_duration(11100) == "3:05:00");
+    CHECK(format_duration(NAN) == "?");
+}

@@ -1,0 +1,59 @@
+#include "shared/parameters/parameter_table.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "shared/parameters/case_file.h"
+#include "shared/parameters/parameter_rendering.h"
+#include "shared/support/error.h"
+#include "shared/support/nearest_word.h"
+
+using namespace endoflow;
+
+TEST_CASE("every row is complete and its default is allowed") {
+    std::set<std::string> names;
+    for (const auto& row : parameter_table()) {
+        INFO(row.name());
+        CHECK(names.insert(row.name()).second);
+        CHECK_FALSE(row.meaning.empty());
+        Parameters p;
+        CHECK_NOTHROW(set_parameter(p, row, row.default_value(), "default"));
+    }
+}
+
+TEST_CASE("the annotated default case reads back as the defaults") {
+    const Parameters p = parse_case(render_parameters_toml(Parameters{}), "generated", {});
+    for (const auto& row : parameter_table()) {
+        INFO(row.name());
+        CHECK(row.get(p) == row.default_value());
+    }
+}
+
+TEST_CASE("every numeric key refuses values that are not finite or outside its bounds") {
+    for (const auto& row : parameter_table()) {
+        INFO(row.name());
+        if (!std::holds_alternative<double>(row.default_value())) continue;
+        Parameters p;
+        for (const double bad : {NAN, INFINITY, -INFINITY})
+            CHECK_THROWS_AS(set_parameter(p, row, bad, "t"), InputError);
+        if (std::isfinite(row.bounds.highest))
+            CHECK_THROWS_AS(set_parameter(p, row, std::nextafter(row.bounds.highest, INFINITY), "t"), InputError);
+        if (std::isfinite(row.bounds.lowest))
+            CHECK_THROWS_AS(set_parameter(p, row, std::nextafter(row.bounds.lowest, -INFINITY), "t"), InputError);
+    }
+}
+
+TEST_CASE("values are written so that TOML reads them back unchanged") {
+    CHECK(to_toml(true) == "true");
+    CHECK(to_toml(20.0) == "20.0");
+    CHECK(to_toml(0.0709219858) == "0.0709219858");
+    CHECK(to_toml(std::string("a \"b\"\n")) == "\"a \\\"b\\\"\\u000a\"");
+}
+
+TEST_CASE("the nearest known word is found, far ones are not suggested") {
+    CHECK(edit_distance("abc", "acb") == 1);
+    CHECK(edit_distance("", "abc") == 3);
+    CHECK(nearest_word("tolerence", {"tolerance", "end"}).value() == "tolerance");
+    CHECK_FALSE(nearest_word("zzzzzz", {"tolerance", "end"}).has_value());
+}
