@@ -156,6 +156,11 @@ def budding(a, b):
     }
 
 
+def last_budding(metrics):
+    """The later budding time (µs) of both runs, or None when no run buds."""
+    return max((time for time in (metrics["budding"]["a_us"], metrics["budding"]["b_us"]) if time is not None), default=None)
+
+
 def summary(records):
     """The summary entry of metrics.json."""
     times = np.array([record["time_us"] for record in records])

@@ -10,6 +10,7 @@ from matplotlib.collections import LineCollection  # noqa: E402
 from matplotlib.ticker import LogLocator, NullFormatter  # noqa: E402
 
 from endoflow.curves import resample  # noqa: E402
+from metrics import last_budding  # noqa: E402
 
 #: Panels of the picture of both membranes, and spacing (nm) of the drawn curve.
 PANELS = 4
@@ -48,13 +49,8 @@ def covers_paper_times(metrics):
 def panel_times(metrics):
     """PANELS evenly chosen times (µs) up to a little after budding, or up to the end of both runs when that is earlier."""
     first, last = metrics["common_interval_us"]
-    end = min(last, 1.2 * last_budding(metrics, default=last))
+    end = min(last, 1.2 * (last_budding(metrics) or last))
     return np.linspace(first, end, PANELS + 1)[1:] if end > first else np.array([last])
-
-
-def last_budding(metrics, default):
-    """The later budding time (µs) of both runs, or default when no run buds."""
-    return max((time for time in (metrics["budding"]["a_us"], metrics["budding"]["b_us"]) if time is not None), default=default)
 
 
 def vertical_range(shapes, margin):
@@ -193,9 +189,9 @@ def _time_axis(axes, a, b):
     """Time from 0 to the later end; logarithmic when the runs go on long after budding."""
     last = max(run.history["time_us"][-1] for run in (a, b))
     budding = [run.event_time("budding") for run in (a, b) if run.event_time("budding")]
-    if budding and last > 4 * max(budding):
+    if budding and last > style.LOG_TIME_FROM * max(budding):
         axes.set_xscale("log")
-        axes.set_xlim(1e-3 * max(budding), last)
+        axes.set_xlim(style.LOG_TIME_START * max(budding), last)
     else:
         axes.set_xlim(0, last)
 

@@ -15,7 +15,7 @@ LINE_STYLES = ("-", (0, (5, 2)))
 
 #: Concentration c from 0 (bare membrane) to 1 (coated), on light and on dark ground. Lightness is monotone in c.
 CONCENTRATION_STOPS = ("#A9B4C0", "#A678B4", "#8E1068")
-CONCENTRATION_STOPS_DARK = ("#5B6B7E", "#B06CB8", "#FF8AD0")
+CONCENTRATION_STOPS_DARK = ("#8A9BB0", "#B98AD0", "#FF8AD0")
 CONCENTRATION = LinearSegmentedColormap.from_list("concentration", CONCENTRATION_STOPS)
 
 #: Ground tints: extracellular fluid (below and inside the bud) and cytoplasm.
@@ -37,6 +37,9 @@ HISTORY_PLOTS = {
 
 #: Neck radius (nm) that counts as budded.
 BUDDING_NECK_RADIUS = 5.0
+
+#: Time axes become logarithmic when runs go on this many times longer than budding; they then start at this fraction of it.
+LOG_TIME_FROM, LOG_TIME_START = 4, 1e-3
 
 #: Times (µs) of the paper's figures.
 PAPER_TIMES = (2.90, 7.46, 14.02, 16.98)

@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""`endoflow compare DIR_A DIR_B [-o DIR]`: metrics.json, plots and report.html from two finished runs.
+
+Exit codes: 0 done; 2 bad command line; 4 a run directory cannot be read or the output cannot be written; 130 interrupted.
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
+
+BAD_COMMAND_LINE, IO_FAILURE, INTERRUPTED = 2, 4, 130
+
+
+def parsed(arguments):
+    """The command line as a namespace: a, b, output (Path)."""
+    parser = argparse.ArgumentParser(prog="endoflow compare", description="Compare two finished runs.", allow_abbrev=False)
+    parser.add_argument("a", metavar="DIR_A", type=Path, help="directory of the first run (drawn on the left)")
+    parser.add_argument("b", metavar="DIR_B", type=Path, help="directory of the second run (drawn on the right)")
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, default=Path("comparison"), help="where to write (default: %(default)s)")
+    return parser.parse_args(arguments)
+
+
+def write_comparison(a, b, output):
+    """Compare two run directories (Path) and write everything into the directory output (Path); returns the metrics."""
+    import endoflow
+    import plots
+    import style
+    from metrics import compare_runs
+    from report import report_html
+
+    run_a, run_b = endoflow.load(a), endoflow.load(b)
+    labels = style.labels(run_a, run_b)
+    metrics = compare_runs(run_a, run_b, labels)
+    output.mkdir(parents=True, exist_ok=True)
+    (output / "metrics.json").write_text(json.dumps(metrics, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+    drawn = plots.write_all(run_a, run_b, metrics, labels, output)
+    (output / "report.html").write_text(report_html(run_a, run_b, metrics, drawn, output), encoding="utf-8")
+    return metrics
+
+
+def summary_lines(metrics, output):
+    """What the terminal shows at the end, as a list of lines."""
+    found, budding = metrics["summary"], metrics["budding"]
+    times = ["none" if budding[key] is None else f"{budding[key]:.5g} µs" for key in ("a_us", "b_us")]
+    return [
+        f"budding time         {times[0]} ({metrics['runs']['a']['label']}), {times[1]} ({metrics['runs']['b']['label']})",
+        f"mean distance        {found['time_mean_of_mean_distance_nm']:.3g} nm",
+        f"Hausdorff distance   at most {found['max_hausdorff_distance_nm']:.3g} nm, at {found['max_hausdorff_distance_time_us']:.4g} µs",
+        f"report               {output / 'report.html'}",
+    ]
+
+
+def main(arguments):
+    """Run the command; returns its exit code."""
+    options = parsed(arguments)
+    try:
+        from endoflow import EndoflowError
+        from metrics import NoCommonTimeError
+    except ImportError as error:
+        print(f"endoflow compare: {error}; install python3-numpy python3-scipy python3-h5py python3-matplotlib", file=sys.stderr)
+        return IO_FAILURE
+    try:
+        metrics = write_comparison(options.a, options.b, options.output)
+    except (EndoflowError, NoCommonTimeError) as error:
+        print(f"endoflow compare: {error}", file=sys.stderr)
+        return IO_FAILURE
+    except OSError as error:
+        print(f"endoflow compare: {error.filename}: {error.strerror}; choose another directory with -o", file=sys.stderr)
+        return IO_FAILURE
+    for warning in metrics["warnings"]:
+        print(f"endoflow compare: warning: {warning}", file=sys.stderr)
+    print("\n".join(summary_lines(metrics, options.output)))
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except KeyboardInterrupt:
+        sys.exit(INTERRUPTED)

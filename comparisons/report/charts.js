@@ -1,0 +1,122 @@
+// Small line charts with a cursor at the time shown. All charts share one time axis.
+
+const CHART = { width: 320, height: 176, left: 52, right: 16, top: 10, bottom: 24 };
+
+function svgElement(name, attributes, parent) {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  if (parent) parent.append(element);
+  return element;
+}
+
+/** About `count` round numbers within [low, high]; powers of ten (and 2, 5 between them if few) for a logarithmic axis. */
+function roundTicks(low, high, logarithmic, count) {
+  if (logarithmic) {
+    const decades = Math.log10(high / low);
+    const factors = decades > 2.5 ? [1] : [1, 2, 5];
+    const skip = Math.max(1, Math.ceil(decades / 5));
+    const ticks = [];
+    for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); power += skip) {
+      for (const factor of factors) ticks.push(factor * 10 ** power);
+    }
+    return ticks.filter((tick) => tick >= low * 0.999 && tick <= high * 1.001);
+  }
+  const rough = (high - low) / count;
+  const unit = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((factor) => factor * unit).find((candidate) => candidate >= rough);
+  const ticks = [];
+  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) ticks.push(i * step);
+  return ticks;
+}
+
+function tickText(value) {
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e-3 && size < 1e5) return String(+value.toPrecision(4));
+  const [factor, power] = value.toExponential(0).split("e");
+  return `${factor === "1" ? "" : `${factor}·`}10${superscript(power.replace("+", ""))}`;
+}
+
+function superscript(text) {
+  return [...text].map((digit) => (digit === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[digit])).join("");
+}
+
+/** Map [low, high] to [from, to], linearly or logarithmically; returns the map with its inverse as `.inverse`. */
+function axisMap(low, high, from, to, logarithmic) {
+  const bend = logarithmic ? Math.log : (value) => value;
+  const unbend = logarithmic ? Math.exp : (value) => value;
+  const slope = (to - from) / (bend(high) - bend(low));
+  const map = (value) => from + slope * (bend(value) - bend(low));
+  map.inverse = (position) => unbend(bend(low) + (position - from) / slope);
+  return map;
+}
+
+/** Smallest and largest finite value over all lines, with room around them. */
+function valueRange(chart) {
+  let low = Infinity, high = -Infinity;
+  for (const line of chart.lines) {
+    line.value.forEach((value, i) => {
+      if (!Number.isFinite(value) || line.time[i] < report.timeAxis.first) return;
+      low = Math.min(low, value);
+      high = Math.max(high, value);
+    });
+  }
+  if (low > high) return [0, 1];
+  if (chart.logarithmic) return [low / 1.15, high * 1.15];
+  if (chart.fromZero) low = Math.min(low, 0);
+  const room = (high - low || Math.abs(high) || 1) * 0.06;
+  return [chart.fromZero && low === 0 ? 0 : low - room, high + room];
+}
+
+function linePath(line, toX, toY) {
+  let path = "", pen = "M";
+  line.value.forEach((value, i) => {
+    if (!Number.isFinite(value) || line.time[i] < report.timeAxis.first) { pen = "M"; return; }
+    path += `${pen}${toX(line.time[i]).toFixed(1)} ${toY(value).toFixed(1)}`;
+    pen = "L";
+  });
+  return path;
+}
+
+/** Build one chart into `parent`; `seek(time)` is called on click and drag. Returns a function that moves the cursor. */
+function drawChart(chart, parent, seek) {
+  const figure = document.createElement("figure");
+  const caption = document.createElement("figcaption");
+  caption.textContent = `${chart.title} (${chart.unit})`;
+  const svg = svgElement("svg", { viewBox: `0 0 ${CHART.width} ${CHART.height}`, role: "img", "aria-label": `${chart.title} against time`, class: chart.neutral ? "neutral" : "" });
+  figure.append(caption, svg);
+  parent.append(figure);
+
+  const right = CHART.width - CHART.right, bottom = CHART.height - CHART.bottom;
+  const { first, last, logarithmic } = report.timeAxis;
+  const [low, high] = valueRange(chart);
+  const toX = axisMap(first, last, CHART.left, right, logarithmic);
+  const toY = axisMap(low, high, bottom, CHART.top, chart.logarithmic);
+  for (const tick of roundTicks(low, high, chart.logarithmic, 4)) {
+    svgElement("line", { class: "grid", x1: CHART.left, x2: right, y1: toY(tick), y2: toY(tick) }, svg);
+    svgElement("text", { x: CHART.left - 6, y: toY(tick) + 4, "text-anchor": "end" }, svg).textContent = tickText(tick);
+  }
+  for (const tick of roundTicks(first, last, logarithmic, 4)) {
+    svgElement("line", { class: "grid", x1: toX(tick), x2: toX(tick), y1: CHART.top, y2: bottom }, svg);
+    svgElement("text", { x: toX(tick), y: bottom + 16, "text-anchor": "middle" }, svg).textContent = tickText(tick);
+  }
+  svgElement("text", { x: 4, y: bottom + 16 }, svg).textContent = "t (µs)";
+  if (chart.level !== null && chart.level > low && chart.level < high) {
+    svgElement("line", { class: "level", x1: CHART.left, x2: right, y1: toY(chart.level), y2: toY(chart.level) }, svg);
+  }
+  svgElement("path", { class: "frame", d: `M${CHART.left} ${CHART.top}V${bottom}H${right}`, style: "stroke-width:1" }, svg);
+  chart.lines.forEach((line, index) => svgElement("path", { class: `series-${index}`, d: linePath(line, toX, toY) }, svg));
+  const cursor = svgElement("line", { class: "cursor", y1: CHART.top, y2: bottom }, svg);
+
+  const seekHere = (event) => {
+    const box = svg.getBoundingClientRect();
+    seek(toX.inverse(((event.clientX - box.left) / box.width) * CHART.width));
+  };
+  svg.addEventListener("pointerdown", (event) => { svg.setPointerCapture(event.pointerId); seekHere(event); });
+  svg.addEventListener("pointermove", (event) => { if (event.buttons & 1) seekHere(event); });
+
+  return (time) => {
+    const x = Math.min(right, Math.max(CHART.left, toX(Math.max(time, first))));
+    cursor.setAttribute("transform", `translate(${x.toFixed(1)} 0)`);
+  };
+}
