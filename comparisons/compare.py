@@ -71,6 +71,10 @@ def main(arguments):
     except OSError as error:
         print(f"endoflow compare: {error.filename}: {error.strerror}; choose another directory with -o", file=sys.stderr)
         return IO_FAILURE
+    except Exception as error:  # a user never meets a stack trace; what is wrong here is ours
+        problem = f"{type(error).__name__}: {error}".splitlines()[0]
+        print(f"endoflow compare: unexpected {problem}; please report this with both run directories", file=sys.stderr)
+        return IO_FAILURE
     for warning in metrics["warnings"]:
         print(f"endoflow compare: warning: {warning}", file=sys.stderr)
     print("\n".join(summary_lines(metrics, options.output)))

@@ -58,7 +58,7 @@ def vertical_range(shapes, margin):
     return min(s.z.min() for s in shapes) - margin, max(s.z.max() for s in shapes) + margin
 
 
-def draw_half(axes, shape, side, z_range, line_width):
+def draw_half(axes, shape, side, z_range, rim, line_width):
     """One membrane in the half-plane `side` (−1 left, +1 right), coloured by c, its extracellular side tinted."""
     r, z, c = resample(shape.r, shape.z, DRAWN_SPACING, shape.c)
     x = side * r
@@ -67,9 +67,10 @@ def draw_half(axes, shape, side, z_range, line_width):
     pieces, levels = pieces_of_equal_level(np.column_stack((x, z)), c)
     lines = LineCollection(pieces, cmap=style.CONCENTRATION, linewidths=line_width, capstyle="round", joinstyle="round", zorder=3)
     lines.set_array(levels)
-    lines.set_clip_path(plt.Rectangle((min(0, x[-1]), z_range[0]), abs(x[-1]), z_range[1] - z_range[0], transform=axes.transData))
     lines.set_clim(0.0, 1.0)
     axes.add_collection(lines, autolim=False)
+    half = plt.Rectangle((min(0, side * rim), z_range[0]), rim, z_range[1] - z_range[0], transform=axes.transData)
+    lines.set_clip_path(half)
     return lines
 
 
@@ -84,12 +85,10 @@ def pieces_of_equal_level(points, c):
     return [points[i : j + 1] for i, j in zip(starts, ends)], level[starts] / COLOUR_LEVELS
 
 
-def draw_pair(axes, shapes, colours, line_width=3.0, z_range=None):
-    """Run A's membrane on the left half-plane, run B's on the right; returns the coloured lines for a colour bar."""
-    z_range = z_range or vertical_range(shapes, 8.0)
-    rim = max(shape.r[-1] for shape in shapes)
+def draw_pair(axes, shapes, colours, z_range, rim, line_width=3.0):
+    """Run A's membrane on the left half-plane, run B's on the right, out to r = rim (nm); returns the lines for a colour bar."""
     for shape, side in zip(shapes, (-1, 1)):
-        lines = draw_half(axes, shape, side, z_range, line_width)
+        lines = draw_half(axes, shape, side, z_range, rim, line_width)
     axes.axvline(0.0, color="#666666", linewidth=0.8, linestyle=(0, (6, 3, 1, 3)), zorder=2)
     for side, colour in zip((-1, 1), colours):
         axes.plot([0.03 * side * rim, side * rim], [z_range[0]] * 2, color=colour, linewidth=5, clip_on=False, zorder=4, solid_capstyle="butt")
@@ -108,7 +107,7 @@ def membranes(a, b, times, labels, colours):
     height = 0.9 + rows * (0.3 + 3.7 * (z_range[1] - z_range[0]) / 160)
     figure, grid = plt.subplots(rows, columns, figsize=(9.4, height), sharex=True, sharey=True, squeeze=False, layout="constrained")
     for axes, time, pair in zip(grid.flat, times, pairs):
-        lines = draw_pair(axes, pair, colours, z_range=z_range)
+        lines = draw_pair(axes, pair, colours, z_range, rim=pair[0].r[-1])
         axes.set_title(f"t = {time:.3g} µs")
     for axes in grid[-1]:
         axes.set_xlabel("r (nm)")

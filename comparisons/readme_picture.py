@@ -15,6 +15,9 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
 #: Moments shown, as fractions of the later budding time (or of the common time when no run buds).
 MOMENTS = (0.06, 0.2, 0.5, 1.0)
 
+#: Half the width (nm) of each panel: the flat membrane further out is left away.
+HALF_WIDTH = 54.0
+
 
 def picture(a, b):
     """The figure for two endoflow.Run objects."""
@@ -32,32 +35,32 @@ def picture(a, b):
     pairs = [(a.shape_at(t), b.shape_at(t)) for t in times]
     z_range = plots.vertical_range([shape for pair in pairs for shape in pair], 7.0)
     width = 13.0
-    height = 0.95 + (width - 0.9) / len(times) * (z_range[1] - z_range[0]) / (2 * pairs[0][0].r[-1])
+    height = 0.95 + (width - 0.9) / len(times) * (z_range[1] - z_range[0]) / (2 * HALF_WIDTH)
     figure, panels = plt.subplots(1, len(times), figsize=(width, height))
-    figure.subplots_adjust(left=0.01, right=0.945, bottom=0.13 / height, top=1 - 0.78 / height, wspace=0.05)
+    figure.subplots_adjust(left=0.01, right=0.93, bottom=0.13 / height, top=1 - 0.78 / height, wspace=0.05)
     for axes, time, pair in zip(panels, times, pairs):
-        lines = plots.draw_pair(axes, pair, colours, line_width=3.6, z_range=z_range)
+        lines = plots.draw_pair(axes, pair, colours, z_range, HALF_WIDTH, line_width=4.5)
         axes.set_axis_off()
         axes.add_patch(plt.Rectangle((0, 0), 1, 1, transform=axes.transAxes, color=style.CYTOPLASM, zorder=0))
         axes.set_title(f"{time:.2f} µs", loc="center", fontsize=12, weight="normal", color="#444444")
-    _scale_bar(panels[0], pairs[0][0].r[-1], z_range)
+    _scale_bar(panels[0], z_range)
     _colour_bar(figure, lines, height)
-    for x, side, label, colour in ((0.475, "right", labels[0], colours[0]), (0.485, "left", labels[1], colours[1])):
+    for x, side, label, colour in ((0.465, "right", labels[0], colours[0]), (0.475, "left", labels[1], colours[1])):
         text = f"{label} ◀" if side == "right" else f"▶ {label}"
         figure.text(x, 1 - 0.22 / height, text, ha=side, va="center", fontsize=15, weight="bold", color=colour)
     return figure
 
 
-def _scale_bar(axes, rim, z_range):
-    """20 nm, in the lower left corner."""
-    left, low = -0.95 * rim, z_range[1] - 8
+def _scale_bar(axes, z_range):
+    """20 nm, in the upper left corner."""
+    left, low = -0.93 * HALF_WIDTH, z_range[1] - 8
     axes.plot([left, left + 20], [low, low], color="#444444", linewidth=2.5, solid_capstyle="butt", zorder=5)
     axes.text(left + 10, low - 2, "20 nm", ha="center", va="top", fontsize=10, color="#444444")
 
 
 def _colour_bar(figure, lines, height):
     """The concentration scale at the right edge."""
-    axes = figure.add_axes([0.955, 0.3 / height, 0.008, 1 - 1.4 / height])
+    axes = figure.add_axes([0.94, 0.3 / height, 0.008, 1 - 1.4 / height])
     bar = figure.colorbar(lines, cax=axes, ticks=[0, 1])
     bar.outline.set_visible(False)
     bar.ax.set_yticklabels(["bare", "coated"], fontsize=10, color="#444444")

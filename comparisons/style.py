@@ -19,7 +19,7 @@ CONCENTRATION_STOPS_DARK = ("#8A9BB0", "#B98AD0", "#FF8AD0")
 CONCENTRATION = LinearSegmentedColormap.from_list("concentration", CONCENTRATION_STOPS)
 
 #: Ground tints: extracellular fluid (below and inside the bud) and cytoplasm.
-EXTRACELLULAR, CYTOPLASM = "#EAF2F8", "#FDFCF9"
+EXTRACELLULAR, CYTOPLASM = "#E2EEF7", "#FCFBF7"
 
 #: A history column as plotted: its values times `factor` are in `unit`; `logarithmic` where it may span decades.
 HistoryPlot = namedtuple("HistoryPlot", "title unit factor logarithmic")

@@ -95,4 +95,7 @@ def _read_record(path):
     for key, kind in (("engine", str), ("parameters", dict), ("provenance", dict), ("events", dict)):
         if not isinstance(record.get(key), kind):
             raise RunDirectoryError(path, f"has no `{key}`", "is this a directory of `endoflow run`?")
+    for name, event in record["events"].items():
+        if not isinstance(event, dict) or not isinstance(event.get("time_us"), (int, float)):
+            raise RunDirectoryError(path, f"event `{name}` has no `time_us`", RERUN)
     return record

@@ -1,0 +1,124 @@
+"""Metrics of two runs of a family known in closed form."""
+
+import json
+import tempfile
+import unittest
+from pathlib import Path
+
+import locations  # noqa: F401
+import numpy as np
+
+import endoflow
+import synthetic
+from metrics import NoCommonTimeError, case_differences, common_times, compare_runs, pair, patch_area
+
+OFFSET = 0.5
+LABELS = ("first", "second")
+
+
+class ParallelRuns(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        a, b = synthetic.write_pair(Path(scratch.name), OFFSET)
+        cls.metrics = compare_runs(endoflow.load(a), endoflow.load(b), LABELS)
+
+    def test_distances_equal_the_offset_at_every_time(self):
+        self.assertEqual(len(self.metrics["times"]), 21)
+        for record in self.metrics["times"]:
+            self.assertEqual(record["interpolated"], [])
+            # 300 points on about 150 nm: interpolation at the curvature jumps errs by 0.2/nm · h²/16 ≈ 3e-3 nm at h = 0.5 nm.
+            self.assertAlmostEqual(record["mean_distance_nm"], OFFSET, delta=1e-3)
+            self.assertAlmostEqual(record["hausdorff_distance_nm"], OFFSET, delta=4e-3)
+
+    def test_quantities_differ_as_the_family_says(self):
+        for record in self.metrics["times"]:
+            inner = synthetic.budding_membrane(record["time_us"], 1.0)
+            outer = synthetic.budding_membrane(record["time_us"], 1.0, OFFSET)
+            self.assertAlmostEqual(record["membrane_area_nm2"]["a"], inner.area, delta=1e-6)
+            self.assertAlmostEqual(record["membrane_area_nm2"]["difference"], outer.area - inner.area, delta=1e-6)
+            if np.isnan(inner.neck_radius):
+                self.assertEqual(record["neck_radius_nm"], {"a": None, "b": None, "difference": None, "relative_difference": None})
+            else:
+                self.assertAlmostEqual(record["neck_radius_nm"]["difference"], OFFSET, delta=1e-9)
+                self.assertAlmostEqual(record["bud_diameter_nm"]["difference"], 2 * OFFSET, delta=1e-9)
+
+    def test_concentration_depends_on_area_alike(self):
+        """Both runs carry the same profile of c against area, so only discretisation differs."""
+        for record in self.metrics["times"]:
+            self.assertLess(record["concentration_l1_relative"], 5e-4)
+            self.assertLess(record["concentration_max"], 4e-3)
+            self.assertLess(abs(record["patch_area_difference_nm2"]), 1.0)
+
+    def test_budding_times(self):
+        neck_at = [synthetic.budding_membrane(self.metrics["budding"][key], 1.0, offset).neck_radius for key, offset in (("a_us", 0), ("b_us", OFFSET))]
+        np.testing.assert_allclose(neck_at, 5.0, atol=1e-9)
+        self.assertGreater(self.metrics["budding"]["difference_us"], 0)
+
+    def test_summary(self):
+        summary = self.metrics["summary"]
+        self.assertAlmostEqual(summary["time_mean_of_mean_distance_nm"], OFFSET, delta=1e-3)
+        self.assertEqual(summary["max_hausdorff_distance_nm"], max(r["hausdorff_distance_nm"] for r in self.metrics["times"]))
+        self.assertEqual(self.metrics["case_differences"], [])
+        self.assertEqual(self.metrics["warnings"], [])
+
+    def test_is_strict_json(self):
+        self.assertEqual(json.loads(json.dumps(self.metrics, allow_nan=False)), self.metrics)
+
+
+class DifferentRuns(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.scratch = Path(scratch.name)
+
+    def run_with(self, name, times, **changes):
+        membrane = lambda t: synthetic.budding_membrane(t, 1.0)  # noqa: E731
+        case = synthetic.parameters(**changes)
+        return endoflow.load(synthetic.write_run(self.scratch / name, "phase-field", membrane, np.array(times), 120, case))
+
+    def test_union_of_output_times_within_the_common_interval(self):
+        a = self.run_with("a", [0.0, 0.2, 0.4, 0.6])
+        b = self.run_with("b", [0.1, 0.2 + 1e-15, 0.5, 0.9])
+        np.testing.assert_allclose(common_times(a, b), [0.1, 0.2, 0.4, 0.5, 0.6])
+        records = compare_runs(a, b, LABELS)["times"]
+        self.assertEqual([r["interpolated"] for r in records], [["a"], [], ["b"], ["a"], ["b"]])
+        # The runs are equal: what is left is the interpolation in time, at most interval²/8 times the acceleration of the apex.
+        self.assertLess(max(r["hausdorff_distance_nm"] for r in records), 4.0)
+        self.assertLess(records[1]["hausdorff_distance_nm"], 1e-9)
+
+    def test_no_common_time(self):
+        a, b = self.run_with("a", [0.0, 0.2]), self.run_with("b", [0.5, 0.9])
+        with self.assertRaisesRegex(NoCommonTimeError, "no common time: shapes cover 0 to 0.2 µs in .* run one of them longer"):
+            common_times(a, b)
+
+    def test_case_differences_are_warnings(self):
+        a = self.run_with("a", [0.0, 0.1])
+        b = self.run_with("b", [0.0, 0.1], molecules__patch_radius=40.0, phase_field__epsilon=0.85)
+        metrics = compare_runs(a, b, LABELS)
+        self.assertEqual(metrics["case_differences"], [{"key": "molecules.patch_radius", "a": 36.0, "b": 40.0}])
+        self.assertEqual(metrics["warnings"], ["the cases differ in molecules.patch_radius: 36.0 (A), 40.0 (B)"])
+
+    def test_unfinished_run_is_a_warning(self):
+        a, b = self.run_with("a", [0.0, 0.1]), self.run_with("b", [0.0, 0.1])
+        b.record["state"] = "running"
+        self.assertRegex(compare_runs(a, b, LABELS)["warnings"][0], "run B .* did not finish: its state is 'running'")
+
+
+class Pieces(unittest.TestCase):
+    def test_pair(self):
+        self.assertEqual(pair(1.0, 3.0), {"a": 1.0, "b": 3.0, "difference": 2.0, "relative_difference": 1.0})
+        self.assertEqual(pair(0.0, 0.0)["relative_difference"], 0.0)
+        self.assertEqual(pair(float("nan"), 3.0), {"a": None, "b": 3.0, "difference": None, "relative_difference": None})
+
+    def test_case_differences_see_absent_parameters(self):
+        self.assertEqual(case_differences({"time": {"end": 1}}, {"time": {}}), [{"key": "time.end", "a": 1, "b": None}])
+
+    def test_patch_area(self):
+        self.assertAlmostEqual(patch_area(np.array([0.0, 100.0, 200.0]), np.array([1.0, 0.75, 0.25])), 150.0)
+        self.assertIsNone(patch_area(np.array([0.0, 100.0]), np.array([0.2, 0.1])))
+
+
+if __name__ == "__main__":
+    unittest.main()

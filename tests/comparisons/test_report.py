@@ -1,0 +1,140 @@
+"""report.html in a real browser, opened from a file."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import locations
+import synthetic
+from browser import Browser, chromium
+
+READY = "document.documentElement?.dataset.ready === 'true'"
+PICTURE = "document.getElementById('membranes').toDataURL()"
+SLIDER = "document.getElementById('time')"
+FRAME = f"Number({SLIDER}.value)"
+
+#: Moves the slider over 60 frames as a user's drag does; the answer is the mean time of one, in ms.
+DRAG = """(() => {
+  const slider = document.getElementById('time');
+  const start = performance.now();
+  for (let i = 0; i < 60; ++i) {
+    slider.value = String(2 * i);
+    slider.dispatchEvent(new Event('input', { bubbles: true }));
+  }
+  document.getElementById('membranes').getContext('2d').getImageData(0, 0, 1, 1);
+  return (performance.now() - start) / 60;
+})()"""
+
+
+@unittest.skipUnless(chromium(), "chromium is not installed (Debian package chromium)")
+class Report(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        scratch = Path(scratch.name)
+        a, b = synthetic.write_pair(scratch, count=21)
+        case = synthetic.parameters(molecules__transport="fickian</script><b>")
+        synthetic.write_run(b, "phase-field", lambda t: synthetic.budding_membrane(t, 1.0, 0.5), [0.05 * i for i in range(21)], 300, case)
+        output = scratch / "out"
+        subprocess.run([sys.executable, str(locations.COMPARE), str(a), str(b), "-o", str(output)], check=True, capture_output=True)
+        cls.report = output / "report.html"
+        cls.browser = cls.enterClassContext(Browser())
+
+    def setUp(self):
+        self.browser.problems.clear()
+        self.browser.resize(1366, 900)
+        self.browser.prefer("light")
+        self.browser.open(self.report, READY)
+
+    def tearDown(self):
+        self.browser.evaluate("1")  # drains pending events
+        self.assertEqual(self.browser.problems, [])
+
+    def test_slider_moves_picture_clock_and_cursors(self):
+        seen = []
+        for frame in (0, 40, 120):
+            self.browser.evaluate(f"{SLIDER}.value = {frame}; {SLIDER}.dispatchEvent(new Event('input'))")
+            clock = self.browser.evaluate("document.getElementById('clock').textContent")
+            cursor = self.browser.evaluate("document.querySelector('#charts .cursor').getAttribute('transform')")
+            neck = self.browser.evaluate("document.querySelector('#readout td').textContent")
+            seen.append((self.browser.evaluate(PICTURE), clock, cursor, neck))
+        for column in zip(*seen):
+            self.assertEqual(len(set(column)), 3, column if len(column[0]) < 99 else "the picture")
+        self.assertEqual(seen[0][3], "–")  # no neck at the start
+
+    def test_keys(self):
+        self.browser.evaluate(f"{SLIDER}.focus()")
+        start = self.browser.evaluate(FRAME)
+        self.browser.press("ArrowRight")
+        self.assertEqual(self.browser.evaluate(FRAME), start + 1)
+        self.browser.press("ArrowLeft", shift=True)
+        self.assertEqual(self.browser.evaluate(FRAME), start - 9)
+        self.browser.evaluate(f"{SLIDER}.blur()")
+        self.browser.press("ArrowLeft")
+        self.assertEqual(self.browser.evaluate(FRAME), start - 10)
+        self.assertRegex(self.browser.evaluate(f"{SLIDER}.getAttribute('aria-valuetext')"), r"^0\.\d+ µs$")
+
+    def test_space_plays_and_pauses(self):
+        start = self.browser.evaluate(FRAME)
+        self.browser.press(" ")
+        self.browser.evaluate("new Promise((done) => setTimeout(done, 500))")
+        self.assertEqual(self.browser.evaluate("document.getElementById('play').textContent"), "Pause")
+        self.browser.press(" ")
+        paused = self.browser.evaluate(FRAME)
+        self.assertGreater(paused, start)
+        self.browser.evaluate("new Promise((done) => setTimeout(done, 200))")
+        self.assertEqual(self.browser.evaluate(FRAME), paused)
+
+    def test_click_in_a_chart_moves_the_time(self):
+        box = self.browser.evaluate(
+            "(() => { const svg = document.querySelector('#charts svg'); svg.scrollIntoView({block: 'center'}); const b = svg.getBoundingClientRect();"
+            " return [b.left + 0.5 * b.width, b.top + 0.5 * b.height]; })()"
+        )
+        self.browser.click(*box)
+        # The plot area spans 52 to 304 of 320 units, so the middle is at (160 − 52)/252 of the time axis from 0 to 1 µs.
+        clock = float(self.browser.evaluate("document.getElementById('clock').textContent"))
+        self.assertAlmostEqual(clock, 108 / 252, delta=0.01)
+
+    def test_fast_enough(self):
+        self.browser.evaluate(DRAG)
+        self.assertLess(self.browser.evaluate(DRAG), 1000 / 30)
+
+    def test_light_and_dark(self):
+        ground = "getComputedStyle(document.body).backgroundColor"
+        light, light_picture = self.browser.evaluate(ground), self.browser.evaluate(PICTURE)
+        self.browser.prefer("dark")
+        self.browser.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        self.assertNotEqual(self.browser.evaluate(ground), light)
+        self.assertNotEqual(self.browser.evaluate(PICTURE), light_picture)
+        self.browser.evaluate("document.getElementById('theme-toggle').click()")
+        self.assertEqual(self.browser.evaluate(ground), light)
+
+    def test_outlines_of_the_other_side(self):
+        before = self.browser.evaluate(PICTURE)
+        self.browser.evaluate("document.getElementById('show-outlines').click()")
+        self.assertNotEqual(self.browser.evaluate(PICTURE), before)
+
+    def test_shows_differing_parameters_and_escapes_them(self):
+        marked = self.browser.evaluate("[...document.querySelectorAll('tr.differs')].map((row) => row.innerText)")
+        self.assertEqual(len(marked), 1)
+        self.assertIn("fickian</script><b>", marked[0])
+        self.assertIn("molecules.transport", self.browser.evaluate("document.querySelector('.warnings').innerText"))
+
+    def test_no_sideways_scrolling_on_a_narrow_screen(self):
+        for width in (400, 800, 1366):
+            self.browser.resize(width, 800)
+            self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
+
+    def test_every_control_has_a_name(self):
+        unnamed = self.browser.evaluate(
+            "[...document.querySelectorAll('button, input, canvas, #charts svg')].filter((e) =>"
+            " !(e.getAttribute('aria-label') || e.closest('label'))).map((e) => e.outerHTML)"
+        )
+        self.assertEqual(unnamed, [])
+
+
+if __name__ == "__main__":
+    unittest.main()
