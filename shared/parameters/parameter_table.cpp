@@ -204,6 +204,16 @@ std::vector<ParameterRow> boundary_integral_rows() {
     return {
         row("boundary_integral", "elements", &P::boundary_integral, &S::elements, "", at_least(8, 2000), "",
             "number of spline elements along the membrane"),
+        row("boundary_integral", "quadrature_order", &P::boundary_integral, &S::quadrature_order, "", at_least(4, 20),
+            "", "Gauss points per element"),
+        row("boundary_integral", "mesh_curvature_length", &P::boundary_integral, &S::mesh_curvature_length, "nm",
+            at_least(0, 1e3), "", "elements get short where the curvature exceeds the inverse of this"),
+        row("boundary_integral", "mesh_edge_weight", &P::boundary_integral, &S::mesh_edge_weight, "", at_least(0, 20),
+            "", "how much shorter elements are at the edge of the patch"),
+        row("boundary_integral", "mesh_relaxation_time", &P::boundary_integral, &S::mesh_relaxation_time, "µs",
+            positive(1e3), "", "time in which the elements move to where they are wanted"),
+        row("boundary_integral", "neck_closed_radius", &P::boundary_integral, &S::neck_closed_radius, "nm",
+            at_least(0, 10), "", "the run ends with neck_closed when the neck radius falls below this"),
     };
 }
 

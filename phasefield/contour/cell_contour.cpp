@@ -1,0 +1,124 @@
+#include "phasefield/contour/cell_contour.h"
+
+#include <cmath>
+
+namespace endoflow::phasefield {
+
+namespace {
+
+double value_at(const dealii::FE_Q<2>& element, const std::vector<double>& coefficients, const dealii::Point<2>& x) {
+    double sum = 0;
+    for (unsigned int i = 0; i < coefficients.size(); ++i) sum += coefficients[i] * element.shape_value(i, x);
+    return sum;
+}
+
+}  // namespace
+
+CellContour::CellContour(const Spaces& spaces, double epsilon, unsigned int subdivisions)
+    : spaces_(&spaces),
+      epsilon_(epsilon),
+      subdivisions_(subdivisions),
+      phi_element_(spaces.flow.degrees[phi]),
+      velocity_element_(spaces.flow.degrees[u_r]),
+      tension_element_(spaces.flow.degrees[tension]),
+      molecule_element_(spaces.molecules.degrees[0]),
+      flow_values_(spaces.flow.element.n_dofs_per_cell()),
+      molecule_values_(spaces.molecules.element.n_dofs_per_cell()) {
+    for (unsigned int k = 0; k <= subdivisions; ++k)
+        for (unsigned int i = 0; i <= subdivisions; ++i) {
+            const dealii::Point<2> x(double(i) / subdivisions, double(k) / subdivisions);
+            auto& shapes = lattice_shapes_.emplace_back();
+            for (unsigned int j = 0; j < phi_element_.n_dofs_per_cell(); ++j)
+                shapes.push_back(phi_element_.shape_value(j, x));
+        }
+}
+
+double CellContour::phi_at(double x, double y) const {
+    return value_at(phi_element_, phi_, {x, y});
+}
+
+ContourPoint CellContour::point(double x, double y) const {
+    const dealii::Point<2> unit(x, y);
+    PhaseFieldPoint p;
+    for (unsigned int j = 0; j < phi_.size(); ++j) {
+        const auto gradient = phi_element_.shape_grad(j, unit);
+        const auto hessian = phi_element_.shape_grad_grad(j, unit);
+        p.r += phi_[j] * gradient[0] / box_.hr;
+        p.z += phi_[j] * gradient[1] / box_.hz;
+        p.rr += phi_[j] * hessian[0][0] / (box_.hr * box_.hr);
+        p.rz += phi_[j] * hessian[0][1] / (box_.hr * box_.hz);
+        p.zz += phi_[j] * hessian[1][1] / (box_.hz * box_.hz);
+    }
+    const double r = box_.r0 + x * box_.hr;
+    return {r,
+            box_.z0 + y * box_.hz,
+            value_at(molecule_element_, c_, unit),
+            2 * value_at(tension_element_, lambda_, unit),
+            -normal_divergence(p, r, 0),
+            value_at(velocity_element_, u_r_, unit),
+            value_at(velocity_element_, u_z_, unit)};
+}
+
+ContourPoint CellContour::root(const Edge& e) const {
+    const auto along = [&](double t) { return phi_at(e.x0 + t * (e.x1 - e.x0), e.y0 + t * (e.y1 - e.y0)); };
+    double low = 0, high = 1, f_low = along(0), f_high = along(1), t = 0.5;
+    for (int iteration = 0; iteration < 60 && high - low > 1e-14; ++iteration) {
+        const double secant = low - f_low * (high - low) / (f_high - f_low);
+        t = iteration % 3 == 2 || !(secant > low && secant < high) ? 0.5 * (low + high) : secant;
+        const double f = along(t);
+        if (f == 0) break;
+        ((f > 0) == (f_low > 0) ? low : high) = t;
+        ((f > 0) == (f_low > 0) ? f_low : f_high) = f;
+        if (std::abs(f) < 1e-15) break;
+    }
+    return point(e.x0 + t * (e.x1 - e.x0), e.y0 + t * (e.y1 - e.y0));
+}
+
+void CellContour::add_square(unsigned int i, unsigned int k, std::vector<ContourSegment>& segments) const {
+    const unsigned int n = subdivisions_;
+    const auto positive = [&](unsigned int a, unsigned int b) { return lattice_[b * (n + 1) + a] >= 0; };
+    const bool corner[4] = {positive(i, k), positive(i + 1, k), positive(i + 1, k + 1), positive(i, k + 1)};
+    const double x0 = double(i) / n, x1 = double(i + 1) / n, y0 = double(k) / n, y1 = double(k + 1) / n;
+    const Edge edges[4] = {{x0, y0, x1, y0}, {x1, y0, x1, y1}, {x0, y1, x1, y1}, {x0, y0, x0, y1}};
+    std::vector<ContourPoint> roots;
+    for (unsigned int e = 0; e < 4; ++e)
+        if (corner[e] != corner[(e + 1) % 4]) roots.push_back(root(edges[e]));
+    if (roots.size() == 2) segments.push_back({roots[0], roots[1]});
+    if (roots.size() < 4) return;
+    // A saddle: the value in the middle decides which corners belong together.
+    const bool middle = phi_at(0.5 * (x0 + x1), 0.5 * (y0 + y1)) >= 0;
+    if (middle == corner[0]) {
+        segments.push_back({roots[0], roots[1]});
+        segments.push_back({roots[2], roots[3]});
+    } else {
+        segments.push_back({roots[3], roots[0]});
+        segments.push_back({roots[1], roots[2]});
+    }
+}
+
+void CellContour::add_segments(const dealii::DoFHandler<2>::active_cell_iterator& flow_cell, const State& state,
+                               std::vector<ContourSegment>& segments) {
+    flow_cell->get_dof_values(state.flow, flow_values_);
+    component_values(spaces_->flow, phi, flow_values_, phi_);
+    lattice_.resize(lattice_shapes_.size());
+    bool any_positive = false, any_negative = false;
+    for (std::size_t point = 0; point < lattice_.size(); ++point) {
+        lattice_[point] = 0;
+        for (std::size_t j = 0; j < phi_.size(); ++j) lattice_[point] += lattice_shapes_[point][j] * phi_[j];
+        (lattice_[point] >= 0 ? any_positive : any_negative) = true;
+    }
+    if (!any_positive || !any_negative) return;
+
+    box_ = cell_box(flow_cell);
+    const dealii::DoFHandler<2>::active_cell_iterator molecule_cell(&flow_cell->get_triangulation(), flow_cell->level(),
+                                                                    flow_cell->index(), &spaces_->molecules.dofs);
+    molecule_cell->get_dof_values(state.molecules, molecule_values_);
+    component_values(spaces_->flow, u_r, flow_values_, u_r_);
+    component_values(spaces_->flow, u_z, flow_values_, u_z_);
+    component_values(spaces_->flow, tension, flow_values_, lambda_);
+    component_values(spaces_->molecules, concentration, molecule_values_, c_);
+    for (unsigned int k = 0; k < subdivisions_; ++k)
+        for (unsigned int i = 0; i < subdivisions_; ++i) add_square(i, k, segments);
+}
+
+}  // namespace endoflow::phasefield

@@ -1,0 +1,73 @@
+#include "phasefield/contour/contour.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "phasefield/contour/cell_contour.h"
+#include "shared/support/error.h"
+
+namespace endoflow::phasefield {
+
+namespace {
+
+constexpr unsigned int subdivisions = 2;
+
+/// Gathers every process's segments everywhere, in the order of the processes.
+std::vector<ContourSegment> all_gather(const std::vector<ContourSegment>& mine, MPI_Comm communicator) {
+    std::vector<ContourSegment> all;
+    for (const auto& part : dealii::Utilities::MPI::all_gather(communicator, mine))
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+MembraneCurve to_curve(const ContourChain& chain) {
+    MembraneCurve curve;
+    double s = 0;
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+        const auto& p = chain[i];
+        if (i > 0) s += std::hypot(p[0] - chain[i - 1][0], p[1] - chain[i - 1][1]);
+        curve.s.push_back(s);
+        curve.r.push_back(p[0]);
+        curve.z.push_back(p[1]);
+        curve.c.push_back(p[2]);
+        curve.lambda.push_back(p[3]);
+        curve.kappa.push_back(p[4]);
+        curve.u_r.push_back(p[5]);
+        curve.u_z.push_back(p[6]);
+    }
+    return curve;
+}
+
+}  // namespace
+
+Contour extract_contour(const Spaces& spaces, const State& state, const Parameters& p) {
+    CellContour cell_contour(spaces, p.phase_field.epsilon, subdivisions);
+    std::vector<ContourSegment> segments;
+    for (const auto& cell : spaces.flow.dofs.active_cell_iterators())
+        if (cell->is_locally_owned()) cell_contour.add_segments(cell, state, segments);
+    segments = all_gather(segments, spaces.flow.dofs.get_communicator());
+
+    const double R = p.domain.radius, tolerance = 1e-7 * p.phase_field.cell_size;
+    auto chains = join_segments(segments, tolerance);
+    const auto on_axis = [&](const ContourPoint& point) { return std::abs(point[0]) < tolerance; };
+    const auto on_rim = [&](const ContourPoint& point) { return std::abs(point[0] - R) < tolerance; };
+    for (auto& chain : chains) {
+        if (on_rim(chain.front())) std::reverse(chain.begin(), chain.end());
+        if (!on_axis(chain.front()) || !on_rim(chain.back())) continue;
+        chain.front()[0] = 0;
+        const double spacing = 0.4 * p.phase_field.cell_size / subdivisions;
+        return {to_curve(thin_out(chain, spacing)), static_cast<unsigned int>(chains.size())};
+    }
+    throw SolverError("membrane-lost", "the level set φ = 0 does not connect the rim with the axis",
+                      "use a smaller phase_field.max_motion or cell_size");
+}
+
+std::vector<PlanePoint> positions(const MembraneCurve& curve) {
+    std::vector<PlanePoint> out;
+    for (std::size_t i = 0; i < curve.size(); ++i) out.push_back({curve.r[i], curve.z[i]});
+    return out;
+}
+
+}  // namespace endoflow::phasefield

@@ -1,0 +1,51 @@
+#include "phasefield/discretization/mesh.h"
+
+#include <deal.II/grid/grid_generator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace endoflow::phasefield {
+
+std::unique_ptr<Mesh> coarse_mesh(const Parameters& p, MPI_Comm communicator) {
+    auto mesh = std::make_unique<Mesh>(communicator, dealii::Triangulation<2>::limit_level_difference_at_vertices);
+    const double size = p.phase_field.cell_size * std::pow(2.0, p.phase_field.far_refinements);
+    const auto cells = [size](double length, unsigned int multiple) {
+        return multiple * std::max(1u, static_cast<unsigned int>(std::lround(length / (size * multiple))));
+    };
+    dealii::GridGenerator::subdivided_hyper_rectangle(*mesh, {cells(p.domain.radius, 1), cells(p.domain.height, 2)},
+                                                      dealii::Point<2>(0, 0),
+                                                      dealii::Point<2>(p.domain.radius, p.domain.height), true);
+    return mesh;
+}
+
+double distance_to_cell(const CellBox& box, const std::vector<PlanePoint>& curve) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto& point : curve) {
+        const double dr = std::max({box.r0 - point.r, point.r - box.r0 - box.hr, 0.0});
+        const double dz = std::max({box.z0 - point.z, point.z - box.z0 - box.hz, 0.0});
+        nearest = std::min(nearest, dr * dr + dz * dz);
+    }
+    return std::sqrt(nearest);
+}
+
+bool flag_band(Mesh& mesh, const std::vector<PlanePoint>& curve, unsigned int finest_level, double inner,
+               double outer) {
+    bool flagged = false;
+    for (const auto& cell : mesh.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        const double distance = distance_to_cell(cell_box(cell), curve);
+        const auto level = static_cast<unsigned int>(cell->level());
+        if (level < finest_level && distance < inner)
+            cell->set_refine_flag();
+        else if (level > 0 && distance > outer)
+            cell->set_coarsen_flag();
+        else
+            continue;
+        flagged = true;
+    }
+    return dealii::Utilities::MPI::max(flagged ? 1 : 0, mesh.get_communicator()) == 1;
+}
+
+}  // namespace endoflow::phasefield

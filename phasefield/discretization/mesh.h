@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+
+#include "phasefield/discretization/scalar_basis.h"
+#include "phasefield/discretization/space.h"
+
+namespace endoflow::phasefield {
+
+/// A point of the half plane.
+struct PlanePoint {
+    double r, z;
+};
+
+/// Coarse cells of about 2^far_refinements h, square to a few per cent; boundary ids as in `Boundary`. The number of
+/// coarse cells in z is even and the pin band's edges fall on grid lines whenever h divides them.
+std::unique_ptr<Mesh> coarse_mesh(const Parameters& parameters, MPI_Comm communicator);
+
+/// Distance of a cell from a polyline: zero when they meet [nm].
+double distance_to_cell(const CellBox& box, const std::vector<PlanePoint>& curve);
+
+/// Sets refinement flags so that all cells within `inner` [nm] of the curve get the finest level, one level per call,
+/// and those farther than `outer` may coarsen. Returns true (on all ranks) when a cell anywhere is flagged.
+bool flag_band(Mesh& mesh, const std::vector<PlanePoint>& curve, unsigned int finest_level, double inner, double outer);
+
+}  // namespace endoflow::phasefield

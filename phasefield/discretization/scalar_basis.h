@@ -1,0 +1,43 @@
+#pragma once
+
+#include <deal.II/base/quadrature.h>
+
+#include <vector>
+
+namespace endoflow::phasefield {
+
+/// Values and derivatives of the scalar Q_k shape functions at the quadrature points of the unit cell.
+/// All arrays are [q * n_dofs + i]. Cells are axis-aligned rectangles, so physical derivatives are these divided by the
+/// cell's extents: no mapping is evaluated in the assembly loops.
+struct ScalarBasis {
+    ScalarBasis(unsigned int degree, const dealii::Quadrature<2>& quadrature);
+
+    unsigned int degree, n_dofs, n_points;
+    std::vector<double> value, dx, dy, dxx, dxy, dyy;
+};
+
+/// The rectangle [r0, r0 + hr] × [z0, z0 + hz].
+struct CellBox {
+    double r0, z0, hr, hz;
+};
+
+template <class Cell>
+CellBox cell_box(const Cell& cell) {
+    const auto& lower = cell->vertex(0);
+    const auto& upper = cell->vertex(3);
+    return {lower[0], lower[1], upper[0] - lower[0], upper[1] - lower[1]};
+}
+
+/// A scalar finite element function at the quadrature points of one cell: value, first and (if asked for) second
+/// derivatives.
+struct ScalarField {
+    std::vector<double> value, r, z, rr, rz, zz;
+};
+
+enum class Derivatives { first, second };
+
+/// Evaluates Σ_i coefficients[i] N_i at all quadrature points.
+void evaluate(const ScalarBasis& basis, const CellBox& box, const std::vector<double>& coefficients, Derivatives order,
+              ScalarField& field);
+
+}  // namespace endoflow::phasefield

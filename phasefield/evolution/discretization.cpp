@@ -1,0 +1,102 @@
+#include "phasefield/evolution/discretization.h"
+
+#include "phasefield/evolution/layer_integral.h"
+#include "phasefield/weak_forms/bending.h"
+#include "shared/model/initial_condition.h"
+
+namespace endoflow::phasefield {
+
+Discretization::Discretization(const Parameters& parameters_, MPI_Comm communicator_)
+    : parameters(parameters_),
+      communicator(communicator_),
+      mesh(coarse_mesh(parameters, communicator)),
+      spaces(*mesh, parameters),
+      coupled(communicator, "coupled"),
+      molecules(communicator, "molecules"),
+      stretching(communicator, "stretching") {}
+
+void Discretization::renew() {
+    spaces.distribute(parameters);
+    coupled.reinit(spaces.flow, flow_couplings(parameters));
+    const auto full = [](unsigned int components) {
+        Couplings table(components, components);
+        table.fill(dealii::DoFTools::always);
+        return table;
+    };
+    molecules.reinit(spaces.molecules, full(2));
+    stretching.reinit(spaces.stretching, full(1));
+}
+
+State empty_state(const Spaces& spaces) {
+    return {spaces.flow.vector(), spaces.molecules.vector(), spaces.stretching.vector()};
+}
+
+BandWidths band_widths(const PhaseFieldParameters& p) {
+    const double inner = p.band_width * p.epsilon;
+    return {inner, inner + 2 * p.cell_size};
+}
+
+namespace {
+
+/// Sets a component to a function of (r, z) at its support points.
+template <class Function>
+void interpolate(const Space& space, unsigned int component, const Function& function, Vector& vector) {
+    std::vector<dealii::types::global_dof_index> indices(space.element.n_dofs_per_cell());
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        cell->get_dof_indices(indices);
+        const CellBox box = cell_box(cell);
+        for (const unsigned int i : space.local[component]) {
+            const auto x = space.element.unit_support_point(i);
+            if (space.owned.is_element(indices[i]))
+                vector(indices[i]) = function(box.r0 + x[0] * box.hr, box.z0 + x[1] * box.hz);
+        }
+    }
+}
+
+void finish(const Space& space, Vector& vector) {
+    vector.compress(dealii::VectorOperation::insert);
+    space.hanging_nodes.distribute(vector);
+    vector.update_ghost_values();
+}
+
+}  // namespace
+
+State initial_state(Discretization& d) {
+    const Parameters& p = d.parameters;
+    const double z0 = p.domain.membrane_height, epsilon = p.phase_field.epsilon;
+    std::vector<PlanePoint> curve;
+    for (double r = 0; r <= p.domain.radius; r += 0.25 * p.phase_field.cell_size) curve.push_back({r, z0});
+    const auto widths = band_widths(p.phase_field);
+    const auto finest = static_cast<unsigned int>(p.phase_field.far_refinements);
+    for (unsigned int level = 0; level < finest; ++level) {
+        flag_band(*d.mesh, curve, finest, widths.inner, 1e300);
+        d.mesh->execute_coarsening_and_refinement();
+    }
+    d.renew();
+
+    State state = empty_state(d.spaces);
+    const BendingModel model(p.membrane);
+    const auto c = [&](double r) { return initial_concentration(p.molecules, r); };
+    const auto profile = [&](double z) { return equilibrium_profile(z0 - z, epsilon); };  // φ = +1 below
+    interpolate(
+        d.spaces.flow, phi, [&](double, double z) { return profile(z); }, state.flow);
+    // On the flat profile ε Δφ = (φ² − 1) φ/ε, so f = (1 − φ²) C/√2.
+    interpolate(
+        d.spaces.flow, moment,
+        [&](double r, double z) {
+            const auto b = bending_coefficients(model, c(r));
+            return b.stiffness * b.curvature * inverse_sqrt2 * (1 - profile(z) * profile(z));
+        },
+        state.flow);
+    interpolate(
+        d.spaces.molecules, concentration, [&](double r, double) { return c(r); }, state.molecules);
+    interpolate(
+        d.spaces.stretching, 0, [](double, double) { return 1.0; }, state.stretching);
+    finish(d.spaces.flow, state.flow);
+    finish(d.spaces.molecules, state.molecules);
+    finish(d.spaces.stretching, state.stretching);
+    return state;
+}
+
+}  // namespace endoflow::phasefield

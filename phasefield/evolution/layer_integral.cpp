@@ -1,0 +1,95 @@
+#include "phasefield/evolution/layer_integral.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "phasefield/surface_transport/surface_transport.h"
+
+namespace endoflow::phasefield {
+
+namespace {
+
+constexpr double layer_edge = 0.9;  // |φ| below this is the layer
+constexpr double two_pi = 2 * dealii::numbers::PI;
+
+}  // namespace
+
+LayerIntegrals integrate_layer(const Spaces& spaces, const State& state, const Parameters& parameters) {
+    const dealii::QGauss<2> quadrature(quadrature_points(parameters.phase_field));
+    OldFields fields(spaces, parameters, quadrature);
+    const ScalarBasis molecule_basis(spaces.molecules.degrees[0], quadrature);
+    dealii::Vector<double> molecule_values(spaces.molecules.element.n_dofs_per_cell());
+    std::vector<double> coefficients;
+    ScalarField c;
+    CoupledPoints points;
+    std::vector<double> sums(3, 0.0);
+    for (const auto& cell : spaces.flow.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        fields.evaluate_cell(cell, state, points);
+        const dealii::DoFHandler<2>::active_cell_iterator molecule_cell(&cell->get_triangulation(), cell->level(),
+                                                                        cell->index(), &spaces.molecules.dofs);
+        molecule_cell->get_dof_values(state.molecules, molecule_values);
+        component_values(spaces.molecules, concentration, molecule_values, coefficients);
+        evaluate(molecule_basis, cell_box(cell), coefficients, Derivatives::first, c);
+        for (std::size_t q = 0; q < points.size(); ++q) {
+            const auto& p = points[q];
+            const double weight =
+                0.5 * two_pi * p.measure * layer_weight(p.layer.gradient, parameters.phase_field.epsilon);
+            sums[0] += weight;
+            sums[1] += weight * c.value[q];
+            sums[2] += weight * p.stretching;
+        }
+    }
+    dealii::Utilities::MPI::sum(sums, spaces.flow.dofs.get_communicator(), sums);
+    return {sums[0], sums[1], sums[2]};
+}
+
+StepDiagnostics diagnose_step(const Spaces& spaces, const Vector& flow_old, const State& state,
+                              const Parameters& parameters) {
+    const auto& numerics = parameters.phase_field;
+    const double epsilon = numerics.epsilon, xi = numerics.tension_extension * epsilon * epsilon;
+    const dealii::QGauss<2> quadrature(quadrature_points(numerics));
+    OldFields fields(spaces, parameters, quadrature);
+    LocalSystem now(spaces.flow, quadrature);
+    const ScalarBasis phi_basis(spaces.flow.degrees[phi], quadrature);
+    dealii::Vector<double> values(spaces.flow.element.n_dofs_per_cell());
+    std::vector<double> coefficients;
+    ScalarField phi_old;
+    CoupledPoints points;
+    std::vector<double> sums(4, 0.0), maxima(3, 0.0);
+    for (const auto& cell : spaces.flow.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        const CellBox box = cell_box(cell);
+        fields.evaluate_cell(cell, state, points);
+        cell->get_dof_values(flow_old, values);
+        component_values(spaces.flow, phi, values, coefficients);
+        evaluate(phi_basis, box, coefficients, Derivatives::first, phi_old);
+        cell->get_dof_values(state.flow, values);
+        now.start(box, values);
+        const auto &ur = now.field(u_r), &uz = now.field(u_z), &lambda = now.field(tension), &g = now.field(force);
+        for (std::size_t q = 0; q < points.size(); ++q) {
+            const auto& p = points[q];
+            const double w = two_pi * p.measure, hoop = ur.value[q] / p.r, shear = ur.z[q] + uz.r[q];
+            sums[0] += w * energy_density(p.moment, p.bending.stiffness, epsilon);
+            sums[1] += w * p.viscosity * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
+            sums[2] += w * numerics.mobility * g.value[q] * g.value[q];
+            sums[3] += w * xi * p.phi.value * p.phi.value * (lambda.r[q] * lambda.r[q] + lambda.z[q] * lambda.z[q]);
+            if (std::abs(p.phi.value) > layer_edge) continue;
+            const double equilibrium = (1 - p.phi.value * p.phi.value) * inverse_sqrt2 / epsilon;
+            const double gradient = std::max(std::hypot(phi_old.r[q], phi_old.z[q]), 0.1 * equilibrium);
+            maxima[0] = std::max(maxima[0], std::abs(p.stretching - 1));
+            maxima[1] = std::max(maxima[1], std::abs(p.layer.gradient / equilibrium - 1));
+            maxima[2] = std::max(maxima[2], std::abs(p.phi.value - phi_old.value[q]) / gradient);
+        }
+    }
+    const MPI_Comm communicator = spaces.flow.dofs.get_communicator();
+    dealii::Utilities::MPI::sum(sums, communicator, sums);
+    dealii::Utilities::MPI::max(maxima, communicator, maxima);
+    return {sums[0], sums[1], sums[2], sums[3], maxima[0], maxima[1], maxima[2]};
+}
+
+}  // namespace endoflow::phasefield

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "phasefield/monolithic/coupled_step.h"
+
+namespace endoflow::phasefield {
+
+/// Integrals over the layer, with 2πr; collective.
+struct LayerIntegrals {
+    double area;        // ½ ∫|∇φ| [nm²]
+    double molecules;   // ½ ∫|∇φ| c [nm²]
+    double stretching;  // ½ ∫|∇φ| s [nm²]
+};
+LayerIntegrals integrate_layer(const Spaces& spaces, const State& state, const Parameters& parameters);
+
+/// What one time step did; collective.
+struct StepDiagnostics {
+    double bending_energy;         // (D) [pN nm]
+    double viscous_dissipation;    // ∫ ½ ν D:D [pN nm/µs]
+    double mobility_dissipation;   // ∫ γ g²
+    double extension_dissipation;  // ∫ ξ ε² φ² |∇λ|²
+    double area_strain_max;        // max |s − 1| on |φ| < 0.9
+    double profile_error_max;  // max | √2 ε|∇φ|/(1 − φ²) − 1 | on |φ| < 0.9: how far the layer is from its thickness
+    double motion_max;  // max |φ − φⁿ|/|∇φⁿ| on |φ| < 0.9 [nm]
+};
+StepDiagnostics diagnose_step(const Spaces& spaces, const Vector& flow_old, const State& state,
+                              const Parameters& parameters);
+
+}  // namespace endoflow::phasefield

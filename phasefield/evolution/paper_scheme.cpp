@@ -1,0 +1,33 @@
+#include "phasefield/evolution/scheme.h"
+#include "phasefield/surface_transport/surface_transport.h"
+
+namespace endoflow::phasefield {
+
+namespace {
+
+/// Sec. 3: the coupled linear system for (u, p, λ, φ, g, f), whose nonlinear terms are linearised once about level n;
+/// then s; then c.
+State advance_paper(Discretization& d, const State& old_state, double tau) {
+    State state = old_state;
+    assemble_coupled(d.spaces, old_state, old_state.flow, d.parameters, tau, d.coupled);
+    Vector increment = d.spaces.flow.vector();
+    d.coupled.solve(d.spaces.flow, increment);
+    state.flow += increment;
+    state.flow.update_ghost_values();
+    if (d.parameters.fluid.dynamics == Dynamics::flow && d.parameters.membrane.inextensible)
+        advance_stretching(d.spaces, old_state.flow, state.flow, d.parameters, tau, d.stretching, state.stretching);
+    advance_molecules(d.spaces, old_state.flow, state.flow, d.parameters, tau, d.molecules, state.molecules);
+    return state;
+}
+
+}  // namespace
+
+State advance(Discretization& d, const State& old_state, double tau) {
+    switch (d.parameters.phase_field.scheme) {
+        case PhaseFieldScheme::paper:
+            break;
+    }
+    return advance_paper(d, old_state, tau);
+}
+
+}  // namespace endoflow::phasefield

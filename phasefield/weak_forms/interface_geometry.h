@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "shared/parameters/parameters.h"
+
+namespace endoflow::phasefield {
+
+/// φ and its derivatives at one point of the half plane (r, z).
+struct PhaseFieldPoint {
+    double value = 0, r = 0, z = 0;  // φ, ∂φ/∂r, ∂φ/∂z
+    double rr = 0, rz = 0, zz = 0;   // second derivatives
+};
+
+/// The layer seen from one point: a = |∇φ| [1/nm], n along ∇φ (towards the extracellular side; every use is even in n),
+/// P = I − n n with P_θθ = 1. Where |∇φ| vanishes n is floored to zero, so P becomes the identity there.
+struct LayerGeometry {
+    double gradient;            // a
+    double normal_r, normal_z;  // n
+    double P_rr, P_rz, P_zz;    // P
+};
+
+inline LayerGeometry layer_geometry(double phi_r, double phi_z, double epsilon) {
+    const double floor = 1e-4 / epsilon;
+    const double a = std::hypot(phi_r, phi_z);
+    const double scale = 1 / std::hypot(a, floor);
+    const double nr = phi_r * scale, nz = phi_z * scale;
+    return {a, nr, nz, 1 - nr * nr, -nr * nz, 1 - nz * nz};
+}
+
+/// div n of n = ∇φ/|∇φ| in the axisymmetric metric [1/nm], floored where |∇φ| vanishes.
+inline double normal_divergence(const PhaseFieldPoint& phi, double r, double floor) {
+    const double a2 = phi.r * phi.r + phi.z * phi.z + floor * floor;
+    const double a = std::sqrt(a2);
+    const double nHn = (phi.r * phi.r * phi.rr + 2 * phi.r * phi.z * phi.rz + phi.z * phi.z * phi.zz) / a2;
+    const double hoop = r > 1e-9 ? phi.r / r : phi.rr;
+    return (phi.rr + phi.zz + hoop - nHn) / a;
+}
+
+/// ν(φ) [pN µs/nm²]: ν₁ at φ = +1 (extracellular), ν₂ at φ = −1.
+inline double viscosity(double phi, const FluidParameters& fluid, ViscosityMean mean) {
+    const double weight = 0.5 * (1 + std::clamp(phi, -1.0, 1.0));
+    const double nu1 = fluid.viscosity_extracellular, nu2 = fluid.viscosity_intracellular;
+    if (mean == ViscosityMean::harmonic) return 1 / (weight / nu1 + (1 - weight) / nu2);
+    return weight * nu1 + (1 - weight) * nu2;
+}
+
+}  // namespace endoflow::phasefield
