@@ -17,10 +17,19 @@ BAD_COMMAND_LINE, IO_FAILURE, INTERRUPTED = 2, 4, 130
 
 def parsed(arguments):
     """The command line as a namespace: a, b, output (Path)."""
-    parser = argparse.ArgumentParser(prog="endoflow compare", description="Compare two finished runs.", allow_abbrev=False)
+    parser = argparse.ArgumentParser(
+        prog="endoflow compare", description="Compare two finished runs.", allow_abbrev=False
+    )
     parser.add_argument("a", metavar="DIR_A", type=Path, help="directory of the first run (drawn on the left)")
     parser.add_argument("b", metavar="DIR_B", type=Path, help="directory of the second run (drawn on the right)")
-    parser.add_argument("-o", "--output", metavar="DIR", type=Path, default=Path("comparison"), help="where to write (default: %(default)s)")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        type=Path,
+        default=Path("comparison"),
+        help="where to write (default: %(default)s)",
+    )
     return parser.parse_args(arguments)
 
 
@@ -61,7 +70,10 @@ def main(arguments):
         from endoflow import EndoflowError
         from metrics import NoCommonTimeError
     except ImportError as error:
-        print(f"endoflow compare: {error}; install python3-numpy python3-scipy python3-h5py python3-matplotlib", file=sys.stderr)
+        print(
+            f"endoflow compare: {error}; install python3-numpy python3-scipy python3-h5py python3-matplotlib",
+            file=sys.stderr,
+        )
         return IO_FAILURE
     try:
         metrics = write_comparison(options.a, options.b, options.output)
@@ -69,7 +81,9 @@ def main(arguments):
         print(f"endoflow compare: {error}", file=sys.stderr)
         return IO_FAILURE
     except OSError as error:
-        print(f"endoflow compare: {error.filename}: {error.strerror}; choose another directory with -o", file=sys.stderr)
+        print(
+            f"endoflow compare: {error.filename}: {error.strerror}; choose another directory with -o", file=sys.stderr
+        )
         return IO_FAILURE
     except Exception as error:  # a user never meets a stack trace; what is wrong here is ours
         problem = f"{type(error).__name__}: {error}".splitlines()[0]

@@ -3,7 +3,7 @@
 metrics.json (schema_version 1); every key ends in its unit, null stands for "does not exist" (no neck, no budding):
 
     schema_version        1
-    runs                  {"a": …, "b": …}: label, directory, engine, version, git, state, exit_reason, budding_time_us
+    runs                  {"a": …, "b": …}: label, directory, engine, version, git, state, exit_reason, end_us, budding_time_us
     common_interval_us    [first, last] time both runs have shapes for
     case_differences      [{key, a, b}]: parameters that differ, the engines' own sections left out
     warnings              [text]
@@ -158,7 +158,9 @@ def budding(a, b):
 
 def last_budding(metrics):
     """The later budding time (µs) of both runs, or None when no run buds."""
-    return max((time for time in (metrics["budding"]["a_us"], metrics["budding"]["b_us"]) if time is not None), default=None)
+    return max(
+        (time for time in (metrics["budding"]["a_us"], metrics["budding"]["b_us"]) if time is not None), default=None
+    )
 
 
 def summary(records):
@@ -188,7 +190,9 @@ def flat_parameters(parameters):
     """{"section.key": value} of parameters by section; a top-level value keeps its name."""
     flat = {}
     for section, values in parameters.items():
-        flat.update({f"{section}.{key}": v for key, v in values.items()} if isinstance(values, dict) else {section: values})
+        flat.update(
+            {f"{section}.{key}": v for key, v in values.items()} if isinstance(values, dict) else {section: values}
+        )
     return flat
 
 
@@ -196,7 +200,9 @@ def case_differences(a, b):
     """[{key, a, b}] for every parameter that differs, the engines' own sections left out; None where a run lacks it."""
     flat_a, flat_b = flat_parameters(a), flat_parameters(b)
     keys = [key for key in dict.fromkeys([*flat_a, *flat_b]) if key.split(".")[0] not in ENGINE_SECTIONS]
-    return [{"key": key, "a": flat_a.get(key), "b": flat_b.get(key)} for key in keys if flat_a.get(key) != flat_b.get(key)]
+    return [
+        {"key": key, "a": flat_a.get(key), "b": flat_b.get(key)} for key in keys if flat_a.get(key) != flat_b.get(key)
+    ]
 
 
 def warnings(a, b, differences):
@@ -219,5 +225,6 @@ def describe(run, label):
         "git": record["provenance"].get("git"),
         "state": record.get("state"),
         "exit_reason": record.get("exit_reason"),
+        "end_us": float(run.history["time_us"][-1]),
         "budding_time_us": run.event_time("budding"),
     }

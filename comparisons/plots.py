@@ -11,6 +11,7 @@ from matplotlib.ticker import LogLocator, NullFormatter  # noqa: E402
 
 from endoflow.curves import resample  # noqa: E402
 from metrics import last_budding  # noqa: E402
+from time_axis import time_axis  # noqa: E402
 
 #: Panels of the picture of both membranes, and spacing (nm) of the drawn curve.
 PANELS = 4
@@ -27,7 +28,7 @@ def write_all(a, b, metrics, labels, directory):
     figures = {
         "membranes": ("Both membranes, coloured by molecule concentration c", membranes(a, b, times, labels, colours)),
         "outlines": ("Outlines on top of each other", outlines(a, b, times, labels, colours)),
-        "histories": ("Histories", histories(a, b, labels, colours)),
+        "histories": ("Histories", histories(a, b, labels, colours, time_axis(metrics))),
         "distances": ("Distance between the membranes", distances(metrics)),
     }
     if covers_paper_times(metrics):
@@ -65,7 +66,9 @@ def draw_half(axes, shape, side, z_range, rim, line_width):
     outline = np.vstack((np.column_stack((x, z)), [(x[-1], z_range[0]), (0.0, z_range[0])]))
     axes.fill(*outline.T, color=style.EXTRACELLULAR, linewidth=0, zorder=1)
     pieces, levels = pieces_of_equal_level(np.column_stack((x, z)), c)
-    lines = LineCollection(pieces, cmap=style.CONCENTRATION, linewidths=line_width, capstyle="round", joinstyle="round", zorder=3)
+    lines = LineCollection(
+        pieces, cmap=style.CONCENTRATION, linewidths=line_width, capstyle="round", joinstyle="round", zorder=3
+    )
     lines.set_array(levels)
     lines.set_clim(0.0, 1.0)
     axes.add_collection(lines, autolim=False)
@@ -91,7 +94,15 @@ def draw_pair(axes, shapes, colours, z_range, rim, line_width=3.0):
         lines = draw_half(axes, shape, side, z_range, rim, line_width)
     axes.axvline(0.0, color="#666666", linewidth=0.8, linestyle=(0, (6, 3, 1, 3)), zorder=2)
     for side, colour in zip((-1, 1), colours):
-        axes.plot([0.03 * side * rim, side * rim], [z_range[0]] * 2, color=colour, linewidth=5, clip_on=False, zorder=4, solid_capstyle="butt")
+        axes.plot(
+            [0.03 * side * rim, side * rim],
+            [z_range[0]] * 2,
+            color=colour,
+            linewidth=5,
+            clip_on=False,
+            zorder=4,
+            solid_capstyle="butt",
+        )
     axes.set(xlim=(-rim, rim), ylim=z_range, aspect="equal", facecolor=style.CYTOPLASM)
     axes.grid(False)
     axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):g}")
@@ -105,7 +116,9 @@ def membranes(a, b, times, labels, colours):
     columns = 2 if len(times) > 1 else 1
     rows = -(-len(times) // columns)
     height = 0.9 + rows * (0.3 + 3.7 * (z_range[1] - z_range[0]) / 160)
-    figure, grid = plt.subplots(rows, columns, figsize=(9.4, height), sharex=True, sharey=True, squeeze=False, layout="constrained")
+    figure, grid = plt.subplots(
+        rows, columns, figsize=(9.4, height), sharex=True, sharey=True, squeeze=False, layout="constrained"
+    )
     for axes, time, pair in zip(grid.flat, times, pairs):
         lines = draw_pair(axes, pair, colours, z_range, rim=pair[0].r[-1])
         axes.set_title(f"t = {time:.3g} µs")
@@ -113,7 +126,9 @@ def membranes(a, b, times, labels, colours):
         axes.set_xlabel("r (nm)")
     for axes in grid[:, 0]:
         axes.set_ylabel("z (nm)")
-    figure.colorbar(lines, ax=grid, label="molecule concentration c", shrink=0.7, aspect=25, pad=0.02).outline.set_visible(False)
+    figure.colorbar(
+        lines, ax=grid, label="molecule concentration c", shrink=0.7, aspect=25, pad=0.02
+    ).outline.set_visible(False)
     _name_halves(figure, labels, colours)
     return figure
 
@@ -122,7 +137,9 @@ def _legend_on_top(figure, handles, texts):
     """A one-line legend above all panels."""
     strip = 0.36 / figure.get_figheight()
     figure.get_layout_engine().set(rect=(0, 0, 1, 1 - strip))
-    figure.legend(handles, texts, loc="upper center", ncols=len(texts), fontsize=10.5, borderaxespad=0.3, handlelength=2.6)
+    figure.legend(
+        handles, texts, loc="upper center", ncols=len(texts), fontsize=10.5, borderaxespad=0.3, handlelength=2.6
+    )
 
 
 def _name_halves(figure, labels, colours):
@@ -154,15 +171,15 @@ def outlines(a, b, times, labels, colours):
     return figure
 
 
-def histories(a, b, labels, colours):
-    """Every quantity of style.HISTORY_PLOTS against time, both runs overlaid; budding marked."""
+def histories(a, b, labels, colours, time_range):
+    """Every quantity of style.HISTORY_PLOTS against time, both runs overlaid; budding marked; time_range as of time_axis()."""
     figure, grid = plt.subplots(2, 4, figsize=(12.4, 5.2), layout="constrained")
     for axes, column in zip(grid.flat, style.HISTORY_PLOTS):
         for run, colour, dashes in zip((a, b), colours, style.LINE_STYLES):
             values = run.history[column] * style.HISTORY_PLOTS[column].factor
             axes.plot(run.history["time_us"], values, color=colour, linestyle=dashes)
             _mark_budding(axes, run, colour)
-        _time_axis(axes, a, b)
+        _set_time_axis(axes, time_range)
         _scale(axes, column, np.concatenate([run.history[column] for run in (a, b)]))
         axes.set_title(style.axis_label(column))
         axes.set_xlabel("time (µs)")
@@ -184,15 +201,12 @@ def _budding_times(axes, runs, labels, colours):
         axes.text(0, 0.51 - 0.3 * row, label, size=9, color="#444444")
 
 
-def _time_axis(axes, a, b):
-    """Time from 0 to the later end; logarithmic when the runs go on long after budding."""
-    last = max(run.history["time_us"][-1] for run in (a, b))
-    budding = [run.event_time("budding") for run in (a, b) if run.event_time("budding")]
-    if budding and last > style.LOG_TIME_FROM * max(budding):
+def _set_time_axis(axes, time_range):
+    """Range and scale of the time axis, as of time_axis()."""
+    if time_range["logarithmic"]:
         axes.set_xscale("log")
-        axes.set_xlim(style.LOG_TIME_START * max(budding), last)
-    else:
-        axes.set_xlim(0, last)
+        axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    axes.set_xlim(time_range["first"], time_range["last"])
 
 
 def _mark_budding(axes, run, colour):
@@ -205,7 +219,9 @@ def _mark_budding(axes, run, colour):
 def _scale(axes, column, values):
     """Logarithmic axis where the quantity asks for one and its values (n,) are positive and span a decade."""
     found = values[np.isfinite(values)]
-    if not (style.HISTORY_PLOTS[column].logarithmic and found.size and found.min() > 0 and found.max() > 10 * found.min()):
+    if not (
+        style.HISTORY_PLOTS[column].logarithmic and found.size and found.min() > 0 and found.max() > 10 * found.min()
+    ):
         return
     axes.set_yscale("log")
     if found.max() < 1000 * found.min():
@@ -219,7 +235,10 @@ def distances(metrics):
     records = metrics["times"]
     time = np.array([record["time_us"] for record in records])
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.4), layout="constrained")
-    curves = (("hausdorff_distance_nm", "Hausdorff", "#333333", "-"), ("mean_distance_nm", "mean", "#7A3E9D", (0, (5, 2))))
+    curves = (
+        ("hausdorff_distance_nm", "Hausdorff", "#333333", "-"),
+        ("mean_distance_nm", "mean", "#7A3E9D", (0, (5, 2))),
+    )
     for key, name, colour, dashes in curves:
         left.plot(time, [record[key] for record in records], color=colour, linestyle=dashes, label=name)
     positive = [record[key] for record in records for key, *_ in curves if record[key] > 0]
@@ -231,8 +250,16 @@ def distances(metrics):
     left.set_title("Distance between the membranes")
     left.legend()
     right.plot(time, [record["concentration_max"] for record in records], color="#333333", label="largest |Δc|")
-    right.plot(time, [record["concentration_l1_relative"] or 0 for record in records], color="#7A3E9D", linestyle=(0, (5, 2)), label="∫|Δc| dA / ∫c dA")
+    right.plot(
+        time,
+        [record["concentration_l1_relative"] or 0 for record in records],
+        color="#7A3E9D",
+        linestyle=(0, (5, 2)),
+        label="∫|Δc| dA / ∫c dA",
+    )
     right.set(xlabel="time (µs)", ylabel="difference of c", ylim=(0, None))
     right.set_title("Difference of c at equal membrane area")
     right.legend()
+    for axes in (left, right):
+        _set_time_axis(axes, time_axis(metrics))
     return figure

@@ -44,8 +44,12 @@ def report_html(a, b, metrics, plots, directory):
         warnings=warnings(metrics["warnings"]),
         cards=cards(metrics),
         sides="".join(f'<span class="ink-{key}">{escaped(label)}</span>' for key, label in zip("ab", labels)),
-        canvas_label=escaped(f"Both membranes at the time shown: {labels[0]} on the left, {labels[1]} on the right, coloured by concentration"),
-        readout_heads="".join(f'<th scope="col" class="ink-{key}">{escaped(label)}</th>' for key, label in zip("ab", labels)),
+        canvas_label=escaped(
+            f"Both membranes at the time shown: {labels[0]} on the left, {labels[1]} on the right, coloured by concentration"
+        ),
+        readout_heads="".join(
+            f'<th scope="col" class="ink-{key}">{escaped(label)}</th>' for key, label in zip("ab", labels)
+        ),
         legend=legend(labels),
         metrics_table=metrics_table(metrics, labels),
         times_table=times_table(metrics["times"]),
@@ -122,13 +126,23 @@ def cards(metrics):
     """The key numbers on top."""
     labels = [metrics["runs"][key]["label"] for key in "ab"]
     budding, found = metrics["budding"], metrics["summary"]
-    relative = f"{percent(budding['relative_difference'])} between the runs" if budding["difference_us"] is not None else "not in both runs"
+    relative = (
+        f"{percent(budding['relative_difference'])} between the runs"
+        if budding["difference_us"] is not None
+        else "not in both runs"
+    )
     worst = f"at {setting(found['max_hausdorff_distance_time_us'], 4)} µs"
     entries = [
         (f"Budding, {labels[0]}", figures(budding["a_us"]), "µs", "neck radius below 5 nm", "ink-a"),
         (f"Budding, {labels[1]}", figures(budding["b_us"]), "µs", "neck radius below 5 nm", "ink-b"),
         ("Budding time difference", figures(budding["difference_us"], 3), "µs", relative, ""),
-        ("Mean distance", figures(found["time_mean_of_mean_distance_nm"], 3), "nm", "along the curves, averaged over time", ""),
+        (
+            "Mean distance",
+            figures(found["time_mean_of_mean_distance_nm"], 3),
+            "nm",
+            "along the curves, averaged over time",
+            "",
+        ),
         ("Largest Hausdorff distance", figures(found["max_hausdorff_distance_nm"], 3), "nm", worst, ""),
     ]
     return "".join(
@@ -151,7 +165,9 @@ def table(heads, rows, kind=""):
     """A table; rows are (class, cells) with ready HTML cells, the first cell being the row's heading."""
     head = "".join(f'<th scope="col">{text}</th>' for text in heads)
     body = "".join(
-        f'<tr class="{row_class}"><th scope="row">{cells[0]}</th>' + "".join(f"<td>{cell}</td>" for cell in cells[1:]) + "</tr>"
+        f'<tr class="{row_class}"><th scope="row">{cells[0]}</th>'
+        + "".join(f"<td>{cell}</td>" for cell in cells[1:])
+        + "</tr>"
         for row_class, cells in rows
     )
     return f'<div class="table {kind}" tabindex="0" role="region" aria-label="table"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
@@ -166,16 +182,29 @@ def metrics_table(metrics, labels):
         entry = last[name]
         scaled = [None if entry[key] is None else entry[key] * factors[name] for key in ("a", "b", "difference")]
         largest = metrics["summary"]["max_relative_difference"][name]
-        cells = [escaped(TITLES[name]), *(figures(v) for v in scaled), percent(entry["relative_difference"]), percent(largest).lstrip("+")]
+        cells = [
+            escaped(TITLES[name]),
+            *(figures(v) for v in scaled),
+            percent(entry["relative_difference"]),
+            percent(largest).lstrip("+"),
+        ]
         rows.append(("", cells))
     end = f"at {setting(last['time_us'], 4)} µs"
-    heads = ["", *(f"{escaped(label)}<br>{end}" for label in labels), f"difference<br>{end}", f"relative<br>{end}", "largest relative<br>at any time"]
+    heads = [
+        "",
+        *(f"{escaped(label)}<br>{end}" for label in labels),
+        f"difference<br>{end}",
+        f"relative<br>{end}",
+        "largest relative<br>at any time",
+    ]
     return table(heads, rows)
 
 
 def times_table(records):
     """The records of metrics.json as rows."""
-    rows = [("", [figures(r[key] if entry is None else r[key][entry]) for key, entry, _ in TIME_COLUMNS]) for r in records]
+    rows = [
+        ("", [figures(r[key] if entry is None else r[key][entry]) for key, entry, _ in TIME_COLUMNS]) for r in records
+    ]
     return table([heading for *_, heading in TIME_COLUMNS], rows)
 
 
@@ -195,7 +224,9 @@ def parameters_table(a, b, labels):
     for key in dict.fromkeys([*flat_a, *flat_b]):
         values = flat_a.get(key), flat_b.get(key)
         differs = values[0] != values[1] and key.split(".")[0] not in ENGINE_SECTIONS
-        rows.append(("differs" if differs else "", [f"<code>{escaped(key)}</code>", *(setting(value) for value in values)]))
+        rows.append(
+            ("differs" if differs else "", [f"<code>{escaped(key)}</code>", *(setting(value) for value in values)])
+        )
     return table(["", *map(escaped, labels)], rows, "text")
 
 
@@ -203,7 +234,9 @@ def provenance_table(a, b, labels):
     """Everything else in run.json: versions, host, times."""
     flat_a, flat_b = (flattened({k: v for k, v in run.record.items() if k != "parameters"}) for run in (a, b))
     keys = list(dict.fromkeys([*flat_a, *flat_b]))
-    rows = [("", [f"<code>{escaped(key)}</code>", setting(flat_a.get(key), 6), setting(flat_b.get(key), 6)]) for key in keys]
+    rows = [
+        ("", [f"<code>{escaped(key)}</code>", setting(flat_a.get(key), 6), setting(flat_b.get(key), 6)]) for key in keys
+    ]
     return table(["", *map(escaped, labels)], rows, "text")
 
 

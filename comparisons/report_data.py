@@ -7,6 +7,7 @@ import numpy as np
 import style
 from endoflow.curves import resample
 from metrics import last_budding
+from time_axis import long_after_budding, time_axis
 
 #: Points of each embedded curve, and about how many frames the slider has.
 POINTS = 220
@@ -60,24 +61,10 @@ def moved_to_output_times(times, output_times):
     return np.where(np.abs(nearest - times) <= 0.5 * (times[1] - times[0]), nearest, times)
 
 
-def long_after_budding(metrics):
-    """Whether the runs go on so long after budding that a linear time axis would hide it."""
-    budding = last_budding(metrics)
-    return budding is not None and metrics["common_interval_us"][1] > style.LOG_TIME_FROM * budding
-
-
 def start_time(metrics):
     """The output time (µs) the report opens with: shortly before budding, else the end."""
     wanted = 0.75 * last_budding(metrics) if last_budding(metrics) else metrics["common_interval_us"][1]
     return min((record["time_us"] for record in metrics["times"]), key=lambda time: abs(time - wanted))
-
-
-def time_axis(metrics):
-    """First and last time (µs) of the charts, and whether their axis is logarithmic."""
-    first, last = metrics["common_interval_us"]
-    if long_after_budding(metrics):
-        return {"first": style.LOG_TIME_START * last_budding(metrics), "last": last, "logarithmic": True}
-    return {"first": first, "last": last if last > first else first + 1.0, "logarithmic": False}
 
 
 def height_range(pairs):
@@ -101,21 +88,25 @@ def even_points(shape):
 
 def charts(a, b, metrics):
     """One entry per chart: the histories of both runs, then the distances."""
-    last = metrics["common_interval_us"][1]
     entries = []
     for column, plot in style.HISTORY_PLOTS.items():
         lines = [(run.history["time_us"], run.history[column] * plot.factor) for run in (a, b)]
         level = style.BUDDING_NECK_RADIUS if column == "neck_radius_nm" else None
-        entries.append(chart(plot.title, plot.unit, lines, last, wants_log=plot.logarithmic, level=level, from_zero=level is not None))
+        entries.append(
+            chart(plot.title, plot.unit, lines, wants_log=plot.logarithmic, level=level, from_zero=level is not None)
+        )
     time = np.array([record["time_us"] for record in metrics["times"]])
-    lines = [(time, np.array([record[key] for record in metrics["times"]])) for key in ("hausdorff_distance_nm", "mean_distance_nm")]
-    entries.append(chart("Distance: Hausdorff, mean", "nm", lines, last, neutral=True, from_zero=True))
+    lines = [
+        (time, np.array([record[key] for record in metrics["times"]]))
+        for key in ("hausdorff_distance_nm", "mean_distance_nm")
+    ]
+    entries.append(chart("Distance: Hausdorff, mean", "nm", lines, neutral=True, from_zero=True))
     return entries
 
 
-def chart(title, unit, lines, last, wants_log=False, level=None, from_zero=False, neutral=False):
-    """One chart; lines is a list of (time, value) arrays, kept up to `last` µs and thinned."""
-    kept = [thinned(time[time <= last], value[time <= last]) for time, value in lines]
+def chart(title, unit, lines, wants_log=False, level=None, from_zero=False, neutral=False):
+    """One chart; lines is a list of (time, value) arrays, which are thinned."""
+    kept = [thinned(time, value) for time, value in lines]
     values = np.concatenate([value[np.isfinite(value)] for _, value in kept])
     return {
         "title": title,
@@ -130,7 +121,7 @@ def chart(title, unit, lines, last, wants_log=False, level=None, from_zero=False
 
 def thinned(time, value):
     """At most LINE_POINTS of the points (time, value), evenly chosen, first and last kept."""
-    keep = np.unique(np.linspace(0, len(time) - 1, min(len(time), LINE_POINTS)).round().astype(int)) if len(time) else []
+    keep = np.linspace(0, len(time) - 1, min(len(time), LINE_POINTS)).round().astype(int)
     return time[keep], value[keep]
 
 

@@ -38,9 +38,6 @@ HISTORY_PLOTS = {
 #: Neck radius (nm) that counts as budded.
 BUDDING_NECK_RADIUS = 5.0
 
-#: Time axes become logarithmic when runs go on this many times longer than budding; they then start at this fraction of it.
-LOG_TIME_FROM, LOG_TIME_START = 4, 1e-3
-
 #: Times (µs) of the paper's figures.
 PAPER_TIMES = (2.90, 7.46, 14.02, 16.98)
 

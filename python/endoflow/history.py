@@ -59,7 +59,9 @@ def read_history(path):
     header = [name.strip() for name in rows[0]]
     missing = [name for name in REQUIRED_COLUMNS if name not in header]
     if missing:
-        raise RunDirectoryError(path, f"lacks the column(s) {', '.join(missing)}", "is this a directory of `endoflow run`?")
+        raise RunDirectoryError(
+            path, f"lacks the column(s) {', '.join(missing)}", "is this a directory of `endoflow run`?"
+        )
     table = np.array([_parse_row(path, number, row, header) for number, row in enumerate(rows[1:], start=2)])
     history = {name: table[:, column] for column, name in enumerate(header)}
     if not (np.diff(history["time_us"]) >= 0).all():  # also catches nan

@@ -62,7 +62,9 @@ class Run:
         if abs(times[nearest] - time) <= tolerance:
             return self.shapes[nearest]
         if not times[0] < time < times[-1]:
-            raise OutOfRangeError(f"{self.directory}: no shape at {time:g} µs; shapes cover {times[0]:g} to {times[-1]:g} µs")
+            raise OutOfRangeError(
+                f"{self.directory}: no shape at {time:g} µs; shapes cover {times[0]:g} to {times[-1]:g} µs"
+            )
         after = int(np.searchsorted(times, time))
         return between(self.shapes[after - 1], self.shapes[after], float(time))
 

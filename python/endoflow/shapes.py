@@ -58,7 +58,9 @@ def read_shapes(path):
             shapes = [_read_shape(path, group) for group in file["shapes"].values()]
     except (OSError, RuntimeError) as error:
         reason = str(error).splitlines()[0]
-        raise RunDirectoryError(path, f"cannot be read as HDF5 ({reason})", f"wait until the run has ended, or {RERUN}") from None
+        raise RunDirectoryError(
+            path, f"cannot be read as HDF5 ({reason})", f"wait until the run has ended, or {RERUN}"
+        ) from None
     if not shapes:
         raise RunDirectoryError(path, "holds no shape", RERUN)
     return sorted(shapes, key=lambda shape: shape.time)
@@ -75,7 +77,9 @@ def _read_shape(path, group):
     sizes = {array.shape for array in arrays.values()}
     if len(sizes) > 1 or arrays["r"].ndim != 1 or arrays["r"].size < 3:
         found = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
-        raise RunDirectoryError(path, f"{group.name}: a curve needs 3 or more points and equal lengths, found {found}", RERUN)
+        raise RunDirectoryError(
+            path, f"{group.name}: a curve needs 3 or more points and equal lengths, found {found}", RERUN
+        )
     broken = [name for name, array in arrays.items() if not np.isfinite(array).all()]
     if broken:
         raise RunDirectoryError(path, f"{group.name}: {', '.join(broken)} holds values that are not numbers", RERUN)

@@ -117,7 +117,9 @@ class Browser:
             self.problems.append(parameters["entry"]["text"])
         elif method == "Runtime.consoleAPICalled" and parameters["type"] in ("error", "assert"):
             self.problems.append(str(parameters["args"]))
-        elif method == "Network.requestWillBeSent" and not parameters["request"]["url"].startswith(("file:", "data:", "about:")):
+        elif method == "Network.requestWillBeSent" and not parameters["request"]["url"].startswith(
+            ("file:", "data:", "about:")
+        ):
             self.problems.append("network request: " + parameters["request"]["url"])
 
     def open(self, path, ready, timeout=20):
@@ -138,14 +140,22 @@ class Browser:
 
     def press(self, key, shift=False):
         """Press and release a key of KEY_CODES."""
-        common = {"key": key, "code": "Space" if key == " " else key, "windowsVirtualKeyCode": KEY_CODES[key], "modifiers": 8 * shift}
+        common = {
+            "key": key,
+            "code": "Space" if key == " " else key,
+            "windowsVirtualKeyCode": KEY_CODES[key],
+            "modifiers": 8 * shift,
+        }
         self._call("Input.dispatchKeyEvent", {"type": "keyDown", "text": key if key == " " else "", **common})
         self._call("Input.dispatchKeyEvent", {"type": "keyUp", **common})
 
     def click(self, x, y):
         """Click at page coordinates in CSS pixels."""
         for kind in ("mousePressed", "mouseReleased"):
-            self._call("Input.dispatchMouseEvent", {"type": kind, "x": x, "y": y, "button": "left", "buttons": 1, "clickCount": 1})
+            self._call(
+                "Input.dispatchMouseEvent",
+                {"type": kind, "x": x, "y": y, "button": "left", "buttons": 1, "clickCount": 1},
+            )
 
     def resize(self, width, height):
         """Set the page's size in CSS pixels."""
@@ -158,7 +168,9 @@ class Browser:
 
     def screenshot(self, path, whole_page=False):
         """Save what is shown, or the whole page, as a PNG (pathlib.Path)."""
-        answer = self._call("Page.captureScreenshot", {"format": "png", "captureBeyondViewport": whole_page, **self._clip(whole_page)})
+        answer = self._call(
+            "Page.captureScreenshot", {"format": "png", "captureBeyondViewport": whole_page, **self._clip(whole_page)}
+        )
         path.write_bytes(base64.b64decode(answer["data"]))
 
     def _clip(self, whole_page):

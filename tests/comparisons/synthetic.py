@@ -22,7 +22,16 @@ PATCH_RADIUS = 36.0
 INTERFACE_WIDTH = 1.2
 FILLET = 8.0
 FLAT_HEIGHT = 80.0
-MEMBRANE_UNITS = {"s": "nm", "r": "nm", "z": "nm", "c": "1", "lambda": "pN/nm", "kappa": "1/nm", "u_r": "nm/us", "u_z": "nm/us"}
+MEMBRANE_UNITS = {
+    "s": "nm",
+    "r": "nm",
+    "z": "nm",
+    "c": "1",
+    "lambda": "pN/nm",
+    "kappa": "1/nm",
+    "u_r": "nm/us",
+    "u_z": "nm/us",
+}
 
 
 @dataclass(frozen=True)
@@ -77,7 +86,9 @@ class SphereOnPlane:
         z = np.where(on_sphere, self.sphere_centre + self.a * np.cos(theta), self.z0 + self.rho * (1 - np.cos(theta)))
         flat = ~on_sphere & ~on_fillet
         r[flat], z[flat] = self.fillet_centre + s[flat] - fillet_end, self.z0
-        kappa = np.where(on_sphere, 2 / self.a, np.where(on_fillet, np.sin(theta) / np.maximum(r, 1e-9) - 1 / self.rho, 0.0))
+        kappa = np.where(
+            on_sphere, 2 / self.a, np.where(on_fillet, np.sin(theta) / np.maximum(r, 1e-9) - 1 / self.rho, 0.0)
+        )
         return r, z, kappa
 
 
@@ -118,8 +129,17 @@ def parameters(**changes):
     """Resolved parameters by section; changes as molecules__patch_radius=40."""
     sections = {
         "domain": {"radius": RIM, "height": 160.0, "membrane_height": FLAT_HEIGHT, "pin_half_width": 5.0},
-        "fluid": {"viscosity_extracellular": 1e-3, "viscosity_intracellular": 1e-2, "inertia": False, "dynamics": "flow"},
-        "membrane": {"bending_stiffness": 100.0, "bending_stiffness_coated": 1200.0, "curvature_convention": "as-printed"},
+        "fluid": {
+            "viscosity_extracellular": 1e-3,
+            "viscosity_intracellular": 1e-2,
+            "inertia": False,
+            "dynamics": "flow",
+        },
+        "membrane": {
+            "bending_stiffness": 100.0,
+            "bending_stiffness_coated": 1200.0,
+            "curvature_convention": "as-printed",
+        },
         "molecules": {"patch_radius": PATCH_RADIUS, "transport": "cahn-hilliard", "interface_width": INTERFACE_WIDTH},
         "phase_field": {"epsilon": 1.2},
         "boundary_integral": {"elements": 32},
@@ -159,7 +179,13 @@ def write_run(directory, engine, membrane_at, shape_times, points=400, case=None
         "state": "finished",
         "exit_reason": "done",
         "parameters": case or parameters(),
-        "provenance": {"version": "0.0.0", "git": "synthetic", "libraries": {"hdf5": "1.10.8"}, "host": "nowhere", "cores": 2},
+        "provenance": {
+            "version": "0.0.0",
+            "git": "synthetic",
+            "libraries": {"hdf5": "1.10.8"},
+            "host": "nowhere",
+            "cores": 2,
+        },
         "steps": {"accepted": 201, "rejected": 3},
         "wall_s": 20 * end,
         "phases": {"assembly": {"wall_s": 5.0, "cpu_s": 9.0}},

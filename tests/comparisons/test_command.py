@@ -17,7 +17,9 @@ PLOTS = ("membranes", "outlines", "histories", "distances")
 
 def compare(*arguments):
     """Run compare.py; returns the finished process with its text."""
-    return subprocess.run([sys.executable, str(locations.COMPARE), *map(str, arguments)], capture_output=True, text=True, timeout=60)
+    return subprocess.run(
+        [sys.executable, str(locations.COMPARE), *map(str, arguments)], capture_output=True, text=True, timeout=60
+    )
 
 
 class Command(unittest.TestCase):
@@ -54,7 +56,9 @@ class Command(unittest.TestCase):
         self.assertNotEqual(metrics["runs"]["a"]["label"], metrics["runs"]["b"]["label"])
 
     def test_runs_without_a_bud_and_a_single_shape(self):
-        flat = synthetic.write_run(self.scratch / "flat", "phase-field", lambda t: synthetic.budding_membrane(0.05 * t, 1.0), [0.0])
+        flat = synthetic.write_run(
+            self.scratch / "flat", "phase-field", lambda t: synthetic.budding_membrane(0.05 * t, 1.0), [0.0]
+        )
         process = compare(flat, self.a, "-o", self.scratch / "single")
         self.assertEqual((process.returncode, process.stderr), (0, ""))
 
@@ -65,7 +69,11 @@ class Command(unittest.TestCase):
             self.assertIn("usage: endoflow compare", process.stderr)
 
     def test_missing_run(self):
-        self.assert_one_line(compare(self.a, self.scratch / "absent"), 4, "endoflow compare: .*absent: no such directory; give the directory")
+        self.assert_one_line(
+            compare(self.a, self.scratch / "absent"),
+            4,
+            "endoflow compare: .*absent: no such directory; give the directory",
+        )
 
     def test_damaged_run(self):
         broken = self.scratch / "broken"
@@ -75,7 +83,9 @@ class Command(unittest.TestCase):
         self.assert_one_line(compare(self.a, broken), 4, "shapes.h5: the file is missing; repeat the run")
 
     def test_no_common_time(self):
-        late = synthetic.write_run(self.scratch / "late", "phase-field", lambda t: synthetic.budding_membrane(1.0, 1.0), [2.0, 3.0])
+        late = synthetic.write_run(
+            self.scratch / "late", "phase-field", lambda t: synthetic.budding_membrane(1.0, 1.0), [2.0, 3.0]
+        )
         self.assert_one_line(compare(self.a, late), 4, "no common time")
 
     def test_output_cannot_be_written(self):
@@ -85,7 +95,9 @@ class Command(unittest.TestCase):
 
     def test_differing_cases_warn(self):
         case = synthetic.parameters(molecules__patch_radius=40.0)
-        other = synthetic.write_run(self.scratch / "other", "phase-field", lambda t: synthetic.budding_membrane(t, 1.0), [0.0, 1.0], 100, case)
+        other = synthetic.write_run(
+            self.scratch / "other", "phase-field", lambda t: synthetic.budding_membrane(t, 1.0), [0.0, 1.0], 100, case
+        )
         process = compare(self.a, other, "-o", self.scratch / "warned")
         self.assertEqual(process.returncode, 0)
         self.assertIn("warning: the cases differ in molecules.patch_radius: 36.0 (A), 40.0 (B)", process.stderr)

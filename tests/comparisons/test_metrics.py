@@ -39,7 +39,9 @@ class ParallelRuns(unittest.TestCase):
             self.assertAlmostEqual(record["membrane_area_nm2"]["a"], inner.area, delta=1e-6)
             self.assertAlmostEqual(record["membrane_area_nm2"]["difference"], outer.area - inner.area, delta=1e-6)
             if np.isnan(inner.neck_radius):
-                self.assertEqual(record["neck_radius_nm"], {"a": None, "b": None, "difference": None, "relative_difference": None})
+                self.assertEqual(
+                    record["neck_radius_nm"], {"a": None, "b": None, "difference": None, "relative_difference": None}
+                )
             else:
                 self.assertAlmostEqual(record["neck_radius_nm"]["difference"], OFFSET, delta=1e-9)
                 self.assertAlmostEqual(record["bud_diameter_nm"]["difference"], 2 * OFFSET, delta=1e-9)
@@ -52,14 +54,19 @@ class ParallelRuns(unittest.TestCase):
             self.assertLess(abs(record["patch_area_difference_nm2"]), 1.0)
 
     def test_budding_times(self):
-        neck_at = [synthetic.budding_membrane(self.metrics["budding"][key], 1.0, offset).neck_radius for key, offset in (("a_us", 0), ("b_us", OFFSET))]
+        neck_at = [
+            synthetic.budding_membrane(self.metrics["budding"][key], 1.0, offset).neck_radius
+            for key, offset in (("a_us", 0), ("b_us", OFFSET))
+        ]
         np.testing.assert_allclose(neck_at, 5.0, atol=1e-9)
         self.assertGreater(self.metrics["budding"]["difference_us"], 0)
 
     def test_summary(self):
         summary = self.metrics["summary"]
         self.assertAlmostEqual(summary["time_mean_of_mean_distance_nm"], OFFSET, delta=1e-3)
-        self.assertEqual(summary["max_hausdorff_distance_nm"], max(r["hausdorff_distance_nm"] for r in self.metrics["times"]))
+        self.assertEqual(
+            summary["max_hausdorff_distance_nm"], max(r["hausdorff_distance_nm"] for r in self.metrics["times"])
+        )
         self.assertEqual(self.metrics["case_differences"], [])
         self.assertEqual(self.metrics["warnings"], [])
 
@@ -76,7 +83,9 @@ class DifferentRuns(unittest.TestCase):
     def run_with(self, name, times, **changes):
         membrane = lambda t: synthetic.budding_membrane(t, 1.0)  # noqa: E731
         case = synthetic.parameters(**changes)
-        return endoflow.load(synthetic.write_run(self.scratch / name, "phase-field", membrane, np.array(times), 120, case))
+        return endoflow.load(
+            synthetic.write_run(self.scratch / name, "phase-field", membrane, np.array(times), 120, case)
+        )
 
     def test_union_of_output_times_within_the_common_interval(self):
         a = self.run_with("a", [0.0, 0.2, 0.4, 0.6])
@@ -90,7 +99,9 @@ class DifferentRuns(unittest.TestCase):
 
     def test_no_common_time(self):
         a, b = self.run_with("a", [0.0, 0.2]), self.run_with("b", [0.5, 0.9])
-        with self.assertRaisesRegex(NoCommonTimeError, "no common time: shapes cover 0 to 0.2 µs in .* run one of them longer"):
+        with self.assertRaisesRegex(
+            NoCommonTimeError, "no common time: shapes cover 0 to 0.2 µs in .* run one of them longer"
+        ):
             common_times(a, b)
 
     def test_case_differences_are_warnings(self):
@@ -110,7 +121,9 @@ class Pieces(unittest.TestCase):
     def test_pair(self):
         self.assertEqual(pair(1.0, 3.0), {"a": 1.0, "b": 3.0, "difference": 2.0, "relative_difference": 1.0})
         self.assertEqual(pair(0.0, 0.0)["relative_difference"], 0.0)
-        self.assertEqual(pair(float("nan"), 3.0), {"a": None, "b": 3.0, "difference": None, "relative_difference": None})
+        self.assertEqual(
+            pair(float("nan"), 3.0), {"a": None, "b": 3.0, "difference": None, "relative_difference": None}
+        )
 
     def test_case_differences_see_absent_parameters(self):
         self.assertEqual(case_differences({"time": {"end": 1}}, {"time": {}}), [{"key": "time.end", "a": 1, "b": None}])

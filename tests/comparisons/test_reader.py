@@ -74,7 +74,12 @@ class LoadedRun(unittest.TestCase):
 
     def test_units_come_from_the_column_names(self):
         units = self.run_.history_units
-        expected = {"time_us": "µs", "neck_radius_nm": "nm", "membrane_area_nm2": "nm²", "volume_extracellular_nm3": "nm³"}
+        expected = {
+            "time_us": "µs",
+            "neck_radius_nm": "nm",
+            "membrane_area_nm2": "nm²",
+            "volume_extracellular_nm3": "nm³",
+        }
         expected.update({"bending_energy_pN_nm": "pN nm", "area_strain_max": "1", "wall_s": "s"})
         self.assertEqual({name: units[name] for name in expected}, expected)
 
@@ -93,7 +98,9 @@ class Interpolation(unittest.TestCase):
             with tempfile.TemporaryDirectory() as scratch:
                 times = np.array([0.4, 0.4 + interval])
                 membrane = lambda t: synthetic.budding_membrane(t, 1.0)  # noqa: E731
-                run = endoflow.load(synthetic.write_run(Path(scratch), "boundary-integral", membrane, times, points=1500))
+                run = endoflow.load(
+                    synthetic.write_run(Path(scratch), "boundary-integral", membrane, times, points=1500)
+                )
             shape, exact = run.shape_at(0.4 + interval / 2), membrane(0.4 + interval / 2)
             return abs(shape.z[0] - exact.bud_height - exact.z0)
 
@@ -137,7 +144,9 @@ class DamagedRun(unittest.TestCase):
         scratch = tempfile.TemporaryDirectory()
         self.addCleanup(scratch.cleanup)
         membrane = lambda t: synthetic.budding_membrane(t, 1.0)  # noqa: E731
-        self.run_ = synthetic.write_run(Path(scratch.name) / "run", "phase-field", membrane, np.array([0.0, 0.5, 1.0]), points=50)
+        self.run_ = synthetic.write_run(
+            Path(scratch.name) / "run", "phase-field", membrane, np.array([0.0, 0.5, 1.0]), points=50
+        )
 
     def assert_refused(self, pattern):
         with self.assertRaisesRegex(endoflow.RunDirectoryError, pattern) as caught:

@@ -37,9 +37,18 @@ class Report(unittest.TestCase):
         scratch = Path(scratch.name)
         a, b = synthetic.write_pair(scratch, count=21)
         case = synthetic.parameters(molecules__transport="fickian</script><b>")
-        synthetic.write_run(b, "phase-field", lambda t: synthetic.budding_membrane(t, 1.0, 0.5), [0.05 * i for i in range(21)], 300, case)
+        synthetic.write_run(
+            b,
+            "phase-field",
+            lambda t: synthetic.budding_membrane(t, 1.0, 0.5),
+            [0.05 * i for i in range(21)],
+            300,
+            case,
+        )
         output = scratch / "out"
-        subprocess.run([sys.executable, str(locations.COMPARE), str(a), str(b), "-o", str(output)], check=True, capture_output=True)
+        subprocess.run(
+            [sys.executable, str(locations.COMPARE), str(a), str(b), "-o", str(output)], check=True, capture_output=True
+        )
         cls.report = output / "report.html"
         cls.browser = cls.enterClassContext(Browser())
 
