@@ -1,0 +1,53 @@
+#pragma once
+
+// Where the elements go: the mesh follows the material, except for the inflow at the rim and a slow relaxation towards
+// the element density that the coat edge and the curvature ask for.
+
+#include <Eigen/Core>
+
+#include "boundary_integral/flow/dense_solver.h"
+#include "boundary_integral/membrane/membrane_space.h"
+
+namespace endoflow::boundary_integral {
+
+// Elements per arc length are proportional to
+//     rho = sqrt(1 + (curvature_length)^2 (kappa_m^2 + kappa_p^2) + (edge_weight 4 c (1 - c))^2)
+struct MeshDensity {
+    double curvature_length = 8.0;  // nm
+    double edge_weight = 2.0;
+    double relaxation_time = 0.02;    // us
+    double smoothing_elements = 2.0;  // rho g is filtered over this many elements
+};
+
+class MeshMotion {
+  public:
+    MeshMotion(const MembraneSpace& space, const MeshDensity& density);
+
+    // Tangential velocity field added to the material velocity, as coefficients (curve_count), nm/us:
+    //     alpha t,  alpha = -inflow xi^5 - (1/tau) (N - xi) g / N'
+    // N(xi): fraction of elements the density wants between the axis and xi.
+    Eigen::VectorXd tangential_velocity(const MembraneState& state, const MembraneSamples& samples,
+                                        double inflow) const;
+
+    // Its derivative with respect to the inflow, and with respect to the curve at fixed density rho (relaxation only).
+    Eigen::VectorXd derivative_by_inflow(const MembraneState& state) const;
+    Eigen::MatrixXd derivative_by_curve(const MembraneState& state, const MembraneSamples& samples) const;
+
+    // The wanted element numbers N as radial coefficients; N(1) = 1.
+    Eigen::VectorXd wanted_numbers(const MembraneSamples& samples) const;
+
+  private:
+    const MembraneSpace& space_;
+    MeshDensity density_;
+    std::vector<double> radial_points_, axial_points_;  // Greville points of the two spaces
+    LuFactors radial_interpolation_, axial_interpolation_, smoothing_;
+
+    double density_at(const CurvePoint& p, double c) const;
+    template <class Speed>
+    Eigen::VectorXd interpolate_tangential(const MembraneState& state, Speed speed) const;
+};
+
+// Interpolates values at the Greville points of a space.
+Eigen::VectorXd interpolate(const SplineSpace& space, const std::vector<double>& values_at_greville_points);
+
+}  // namespace endoflow::boundary_integral

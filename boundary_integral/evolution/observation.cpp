@@ -1,0 +1,159 @@
+#include "boundary_integral/evolution/observation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "boundary_integral/quadrature/gauss_legendre.h"
+
+namespace endoflow::boundary_integral {
+
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+// Zero of r' in [low, high], where it changes sign: bisection, then Newton.
+double stationary_radius(const MembraneSpace& space, const MembraneState& state, double low, double high) {
+    const double sign = space.radial().basis(low).evaluate(state.r, 1) > 0.0 ? 1.0 : -1.0;
+    double middle = low;
+    for (int i = 0; i < 60; ++i) {
+        middle = 0.5 * (low + high);
+        (sign * space.radial().basis(middle).evaluate(state.r, 1) > 0.0 ? low : high) = middle;
+    }
+    return middle;
+}
+
+}  // namespace
+
+std::optional<NeckOfCurve> find_neck(const MembraneSpace& space, const MembraneState& state) {
+    const Index samples = 4 * space.elements();
+    std::optional<double> widest;
+    double previous = 0.0;
+    for (Index i = 1; i <= samples; ++i) {
+        const double xi = static_cast<double>(i) / static_cast<double>(samples);
+        const double slope = space.radial().basis(xi).evaluate(state.r, 1);
+        if (!widest && slope < 0.0) {
+            widest = stationary_radius(space, state, previous, xi);
+        } else if (widest && slope > 0.0) {
+            const double neck = stationary_radius(space, state, previous, xi);
+            return NeckOfCurve{space.radial().basis(neck).evaluate(state.r),
+                               space.radial().basis(*widest).evaluate(state.r), neck};
+        }
+        previous = xi;
+    }
+    return std::nullopt;
+}
+
+ShapeIntegrals shape_integrals(const MembraneSpace& space, const MembraneState& state, const DomainParameters& domain) {
+    ShapeIntegrals result;
+    result.wall_distance = 1e300;
+    const MembraneSamples samples = sample(space, state);
+    double to_rim = 0.0;
+    for (std::size_t i = 0; i < space.xi.size(); ++i) to_rim += space.weight[i] * samples.curve[i].g;
+    result.height = space.axial().basis(0.0).evaluate(state.z) - domain.membrane_height;
+    for (std::size_t i = 0; i < space.xi.size(); ++i) {
+        const CurvePoint& p = samples.curve[i];
+        const double ring = two_pi * space.weight[i] * p.r;
+        result.area += ring * p.g;
+        result.mass += ring * p.g * samples.c[i];
+        result.extracellular_volume += ring * p.r1 * (p.z - domain.membrane_height);
+        result.height = std::max(result.height, p.z - domain.membrane_height);
+        to_rim -= space.weight[i] * p.g;
+        result.wall_distance = std::min({result.wall_distance, p.z, domain.height - p.z});
+        if (to_rim > 4.0 * domain.wall_clearance)
+            result.wall_distance = std::min(result.wall_distance, domain.radius - p.r);
+    }
+    return result;
+}
+
+double largest_divergence(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& velocity) {
+    const Eigen::VectorXd u_r = velocity.head(space.radial_count());
+    const Eigen::VectorXd u_z = velocity.tail(space.axial_count());
+    double largest = 0.0;
+    for (std::size_t i = 0; i < space.xi.size(); ++i) {
+        const CurvePoint& p = samples.curve[i];
+        const BasisRow& radial = space.radial_rows[i];
+        const double stretching =
+            (p.r1 * radial.evaluate(u_r, 1) + p.z1 * space.axial_rows[i].evaluate(u_z, 1)) / (p.g * p.g);
+        largest = std::max(largest, std::abs(stretching + radial.evaluate(u_r, 0) / p.r));
+    }
+    return largest;
+}
+
+double EnergyBalance::residual() const {
+    return std::abs(energy_rate + dissipated_power - diffusive_power - inflow_power) /
+           (std::abs(dissipated_power) + 1e-300);
+}
+
+EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& e) {
+    const MembraneSpace& space = dynamics.space();
+    EnergyBalance balance{};
+    // c' at fixed xi from the moments: M c' = m' - M' c, M' c = int phi c D(r g)[w] dxi with the mesh velocity w.
+    const Eigen::VectorXd w_r = e.mesh_velocity.head(space.radial_count());
+    const Eigen::VectorXd w_z = e.mesh_velocity.tail(space.axial_count());
+    Eigen::VectorXd right = e.rate.tail(space.axial_count());
+    Eigen::VectorXd advected = Eigen::VectorXd::Zero(space.axial_count());
+    for (std::size_t i = 0; i < space.xi.size(); ++i) {
+        const CurvePoint& p = e.samples.curve[i];
+        const BasisRow& phi = space.axial_rows[i];
+        const double growth = space.radial_rows[i].evaluate(w_r, 0) * p.g +
+                              p.r / p.g * (p.r1 * space.radial_rows[i].evaluate(w_r, 1) + p.z1 * phi.evaluate(w_z, 1));
+        // Transport by the material alone leaves c constant along it: dc/dt at fixed xi = - v c'/g.
+        const double carried = -e.relative_velocity[i] * e.samples.c1[i] / p.g * p.r * p.g;
+        for (std::size_t j = 0; j < 6; ++j) {
+            right[phi.index[j]] -= space.weight[i] * phi.value[0][j] * e.samples.c[i] * growth;
+            advected[phi.index[j]] += space.weight[i] * phi.value[0][j] * carried;
+        }
+    }
+    const LuFactors mass(surface_mass_matrix(space, e.samples.curve), "concentration mass");
+    const Eigen::VectorXd c_rate = mass.solve(right);
+    const Eigen::VectorXd c_carried = mass.solve(advected);
+    const double rim_density = energy_density_at_rim(space, e.state, dynamics.model());
+    balance.energy_rate = two_pi * (e.energy.gradient.dot(e.mesh_velocity) + e.energy.gradient_c.dot(c_rate));
+    balance.diffusive_power = two_pi * e.energy.gradient_c.dot(c_rate - c_carried);
+    balance.inflow_power = -two_pi * e.samples.rim_radius * rim_density * e.flow.inflow;
+    const Eigen::VectorXd f_r = e.flow.force.head(space.radial_count());
+    const Eigen::VectorXd f_z = e.flow.force.tail(space.force().dimension());
+    for (std::size_t i = 0; i < space.xi.size(); ++i) {
+        const CurvePoint& p = e.samples.curve[i];
+        const double u_r = space.radial_rows[i].evaluate(e.flow.velocity.head(space.radial_count()));
+        const double u_z = space.axial_rows[i].evaluate(e.flow.velocity.tail(space.axial_count()));
+        balance.dissipated_power +=
+            two_pi * space.weight[i] * p.r * p.g *
+            (u_r * space.radial_rows[i].evaluate(f_r) + u_z * space.force_rows[i].evaluate(f_z));
+    }
+    return balance;
+}
+
+MembraneCurve membrane_curve(const MembraneSpace& space, const Evaluation& e, Index intervals) {
+    MembraneCurve curve;
+    const Eigen::VectorXd u_r = e.flow.velocity.head(space.radial_count());
+    const Eigen::VectorXd u_z = e.flow.velocity.tail(space.axial_count());
+    const QuadratureRule rule = gauss_legendre(6);
+    double arc_length = 0.0;
+    for (Index i = 0; i <= intervals; ++i) {
+        const double step = 1.0 / static_cast<double>(intervals);
+        const double xi = static_cast<double>(i) * step;
+        if (i > 0) {
+            for (std::size_t q = 0; q < rule.nodes.size(); ++q) {
+                const double at = xi - 0.5 * step * (1.0 - rule.nodes[q]);
+                arc_length += 0.5 * step * rule.weights[q] *
+                              curve_point(space.radial().basis(at), space.axial().basis(at), e.state).g;
+            }
+        }
+        const BasisRow radial = space.radial().basis(xi);
+        const BasisRow axial = space.axial().basis(xi);
+        const CurvePoint p = curve_point(radial, axial, e.state);
+        curve.s.push_back(arc_length);
+        curve.r.push_back(i == 0 ? 0.0 : p.r);
+        curve.z.push_back(p.z);
+        curve.c.push_back(axial.evaluate(e.state.c));
+        curve.lambda.push_back(space.tension().basis(xi).evaluate(e.flow.tension));
+        curve.kappa.push_back(p.total_curvature());
+        curve.u_r.push_back(i == 0 ? 0.0 : radial.evaluate(u_r));
+        curve.u_z.push_back(axial.evaluate(u_z));
+    }
+    return curve;
+}
+
+}  // namespace endoflow::boundary_integral

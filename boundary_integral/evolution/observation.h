@@ -1,0 +1,49 @@
+#pragma once
+
+// What a run reports about a state: exact integrals and extrema of the spline curve.
+
+#include <optional>
+
+#include "boundary_integral/evolution/membrane_dynamics.h"
+#include "shared/geometry/membrane_curve.h"
+
+namespace endoflow::boundary_integral {
+
+struct NeckOfCurve {
+    double radius;         // smallest r between the bud's widest place and the rim, nm
+    double widest_radius;  // largest r of the bud above the neck, nm
+    double xi;
+};
+
+// First local minimum of r after its first local maximum, seen from the axis; both are zeros of r'(xi), found to
+// round-off.
+std::optional<NeckOfCurve> find_neck(const MembraneSpace& space, const MembraneState& state);
+
+struct ShapeIntegrals {
+    double area = 0.0;                  // nm^2
+    double mass = 0.0;                  // int c dA, nm^2
+    double extracellular_volume = 0.0;  // int (z - z_rim) 2 pi r dr, nm^3
+    double height = 0.0;                // largest z - z_rim, nm
+    double wall_distance = 0.0;         // to bottom, top and side, the neighbourhood of the rim left out, nm
+};
+ShapeIntegrals shape_integrals(const MembraneSpace& space, const MembraneState& state, const DomainParameters& domain);
+
+// Largest |div_Gamma u| on the membrane, 1/us: what is left of the inextensibility constraint between the test
+// functions.
+double largest_divergence(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& velocity);
+
+// Energy balance of a state: rate of E along the computed motion against the power given to the fluid, the energy that
+// inflowing membrane brings along and the energy that diffusion of the molecules brings.
+struct EnergyBalance {
+    double energy_rate;       // dE/dt, pN nm/us
+    double dissipated_power;  // int f.u dA, pN nm/us
+    double diffusive_power;   // dE/dt by diffusion of c, pN nm/us
+    double inflow_power;      // pN nm/us
+    double residual() const;  // relative
+};
+EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& evaluation);
+
+// The curve with all its fields on `intervals` equal steps of xi, axis and rim included.
+MembraneCurve membrane_curve(const MembraneSpace& space, const Evaluation& evaluation, Index intervals);
+
+}  // namespace endoflow::boundary_integral

@@ -1,0 +1,52 @@
+#pragma once
+
+// Azimuthally integrated ("ring") kernels of Stokes flow: the free-space Stokeslet G and stresslet T of a source ring
+// seen from one point. With x = source - target, rho = |x|:
+//     G_ij = delta_ij / rho + x_i x_j / rho^3,        T_ijk = -6 x_i x_j x_k / rho^5                       (Pozrikidis
+//     1992)
+// and the azimuthal integral over the source angle phi in (0, 2 pi). Only sigma = sin^2(phi/2) appears:
+//     rho^2 = a + b sigma,  a = (r - r0)^2 + (z - z0)^2,  b = 4 r r0,
+// so that nothing cancels when source and target approach each other.
+
+#include <cstddef>
+#include <vector>
+
+namespace endoflow::boundary_integral {
+
+// Source points of one target, structure of arrays; every vector has the same length. Differences to the target are
+// inputs, so a caller who knows them to full relative accuracy (same element of a polynomial curve) keeps that
+// accuracy.
+struct RingSources {
+    std::vector<double> radius;         // r of the source, > 0 [nm]
+    std::vector<double> delta_r;        // r - r0 [nm]
+    std::vector<double> delta_z;        // z - z0 [nm]
+    std::vector<double> normal_r;       // r component of the unit normal at the source
+    std::vector<double> normal_offset;  // n_r (r - r0) + n_z (z - z0) [nm]
+
+    void resize(std::size_t count);
+    std::size_t size() const { return radius.size(); }
+};
+
+// Kernel values, one entry per source. The first letter is the component at the target, the second that of the density.
+// The surface measure r ds is NOT included.
+struct RingKernels {
+    std::vector<double> g_rr, g_rz, g_zr, g_zz;  // single layer [1/nm]
+    std::vector<double> t_rr, t_rz, t_zr, t_zz;  // double layer T_ijk n_k [1/nm^2]
+
+    void resize(std::size_t count);
+};
+
+// Complete elliptic integrals from one arithmetic-geometric mean, all free of cancellation as m -> 0:
+//     K, E, D = (K - E)/m, B = (E - (1-m) K)/m = K - D.  Argument: the complementary parameter 1 - m in (0, 1].
+struct EllipticIntegrals {
+    double k, e, d, b;
+};
+EllipticIntegrals elliptic_integrals(double complementary_parameter);
+
+// All eight kernels for one target radius r0 >= 0 (the axis r0 = 0 needs no special case).
+void evaluate_ring_kernels(double target_radius, const RingSources& sources, RingKernels& kernels);
+
+// The four single-layer kernels alone.
+void evaluate_ring_stokeslets(double target_radius, const RingSources& sources, RingKernels& kernels);
+
+}  // namespace endoflow::boundary_integral

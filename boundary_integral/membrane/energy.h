@@ -1,0 +1,45 @@
+#pragma once
+
+// The bending energy (S) of the discrete membrane with exact first and second derivatives, and the surface divergence.
+// All integrals leave out the common factor 2 pi of the azimuth: E here is (energy)/(2 pi), dA = r g dxi.
+
+#include <Eigen/Core>
+
+#include "boundary_integral/membrane/membrane_space.h"
+#include "shared/model/bending_model.h"
+
+namespace endoflow::boundary_integral {
+
+struct EnergyDerivatives {
+    double energy = 0.0;         // E/(2 pi) [pN nm]
+    Eigen::VectorXd gradient;    // dE/d(r, z coefficients) [pN], curve_count, at fixed c(xi)
+    Eigen::VectorXd gradient_c;  // dE/d(c coefficients), axial_count
+    Eigen::MatrixXd hessian;     // curve_count x curve_count, includes + integral of lambda dA if a tension is given
+    Eigen::MatrixXd mixed;       // d gradient / d c, curve_count x axial_count
+};
+
+enum class Derivatives { first, second };
+
+// E = int 1/2 beta(c) (kappa - C(c))^2 dA (S) With second derivatives, `tension` (values at the Gauss points, or empty)
+// adds the Hessian of int lambda dA at fixed lambda(xi).
+EnergyDerivatives bending_energy(const MembraneSpace& space, const MembraneState& state, const BendingModel& model,
+                                 Derivatives wanted, const std::vector<double>& tension = {});
+
+// Energy per area at the rim, 1/2 beta (kappa - C)^2 [pN/nm]: what inflowing membrane brings with it.
+double energy_density_at_rim(const MembraneSpace& space, const MembraneState& state, const BendingModel& model);
+
+// Weak surface divergence: (C u)_k = int mu_k div_Gamma(u) dA = int mu_k D(r g)[u] dxi; tension x curve_count. Its
+// transpose times lambda is the gradient of int lambda dA.
+Eigen::MatrixXd divergence_matrix(const MembraneSpace& space, const MembraneSamples& samples);
+
+// d(C u)/d(coefficients) at fixed u; tension x curve_count.
+Eigen::MatrixXd divergence_variation(const MembraneSpace& space, const MembraneSamples& samples,
+                                     const Eigen::VectorXd& velocity);
+
+// N(i, j) = int w_i . f_j dA between velocities (curve_count) and force densities (force_count).
+Eigen::MatrixXd force_mass_matrix(const MembraneSpace& space, const MembraneSamples& samples);
+
+// Values of a tension-space or axial-space function at the Gauss points.
+std::vector<double> values_at_points(const std::vector<BasisRow>& rows, const Eigen::VectorXd& coefficients);
+
+}  // namespace endoflow::boundary_integral

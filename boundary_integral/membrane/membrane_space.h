@@ -1,0 +1,79 @@
+#pragma once
+
+// The discrete membrane: which spline spaces carry which unknown, and the quadrature points that integrate over it.
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "boundary_integral/quadrature/gauss_legendre.h"
+#include "boundary_integral/splines/spline_space.h"
+
+namespace endoflow::boundary_integral {
+
+// xi in [0, 1] runs from the axis to the rim.
+//   radial   quintic, odd:  r, u_r, f_r
+//   axial    quintic, even: z, u_z, c
+//   force    quintic, even, without the two breakpoints next to the rim: f_z. Two functions fewer than `axial`, as many
+//   as the
+//            clamped velocities (height and slope prescribed at the rim) have freedoms.
+//   tension  quartic, even: lambda; holds the derivatives of `radial`
+class MembraneSpace {
+  public:
+    MembraneSpace(Index elements, int gauss_points);
+
+    Index elements() const { return elements_; }
+    double element_width() const { return 1.0 / static_cast<double>(elements_); }
+    const SplineSpace& radial() const { return radial_; }
+    const SplineSpace& axial() const { return axial_; }
+    const SplineSpace& force() const { return force_; }
+    const SplineSpace& tension() const { return tension_; }
+    Index radial_count() const { return radial_.dimension(); }
+    Index axial_count() const { return axial_.dimension(); }
+    Index curve_count() const { return radial_count() + axial_count(); }
+    Index force_count() const { return radial_count() + force_.dimension(); }
+
+    // Gauss points of all elements, and everything tabulated there.
+    Index points() const { return static_cast<Index>(xi.size()); }
+    Index points_per_element() const { return points_per_element_; }
+    std::vector<double> xi;
+    std::vector<double> weight;
+    std::vector<BasisRow> radial_rows, axial_rows, force_rows, tension_rows;
+
+    // Where the velocity equation is collocated: radial component, axial component.
+    std::vector<double> radial_targets, axial_targets;
+
+  private:
+    Index elements_;
+    Index points_per_element_;
+    SplineSpace radial_, axial_, force_, tension_;
+};
+
+// Spline coefficients of the curve and of the concentration on it.
+struct MembraneState {
+    Eigen::VectorXd r;  // radial_count, nm
+    Eigen::VectorXd z;  // axial_count, nm
+    Eigen::VectorXd c;  // axial_count
+};
+
+// The curve at one point. t = (r', z')/g is the tangent towards the rim, n = (-z', r')/g the normal into the cell.
+struct CurvePoint {
+    double r, z, r1, z1, r2, z2;  // position [nm], first and second derivatives in xi
+    double g;                     // |x'| = ds/dxi [nm]
+    double normal_r, normal_z;
+    double meridional_curvature;  // -(r' z'' - z' r'')/g^3
+    double azimuthal_curvature;   // -z'/(r g), its limit on the axis
+    double total_curvature() const { return meridional_curvature + azimuthal_curvature; }
+};
+
+CurvePoint curve_point(const BasisRow& radial, const BasisRow& axial, const MembraneState& state);
+
+// Curve and concentration at all Gauss points.
+struct MembraneSamples {
+    std::vector<CurvePoint> curve;
+    std::vector<double> c, c1, c2;
+    double rim_radius = 0.0;  // nm
+};
+MembraneSamples sample(const MembraneSpace& space, const MembraneState& state);
+
+}  // namespace endoflow::boundary_integral

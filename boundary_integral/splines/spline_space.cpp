@@ -1,0 +1,161 @@
+#include "boundary_integral/splines/spline_space.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace endoflow::boundary_integral {
+
+namespace {
+std::size_t at(Index i) {
+    return static_cast<std::size_t>(i);
+}
+}  // namespace
+
+SplineSpace::SplineSpace(int degree, std::vector<double> breakpoints, Parity parity)
+    : degree_(degree), parity_(parity), breakpoints_(std::move(breakpoints)) {
+    const double first_interval = breakpoints_[1] - breakpoints_[0];
+    for (int i = degree_; i >= 1; --i) knots_.push_back(-i * first_interval);
+    knots_.insert(knots_.end(), breakpoints_.begin(), breakpoints_.end());
+    for (int i = 0; i < degree_; ++i) knots_.push_back(breakpoints_.back());
+    const Index raw_count = static_cast<Index>(knots_.size()) - degree_ - 1;
+    for (Index raw = 0; raw < raw_count; ++raw) {
+        Index folded = 0;
+        if (fold(raw, folded) != 0.0) dimension_ = std::max(dimension_, folded + 1);
+    }
+}
+
+// Raw function i is mirrored about the axis into p - 1 - i.
+double SplineSpace::fold(Index raw, Index& folded) const {
+    const Index mirror = degree_ - 1 - raw;
+    const bool odd_degree = degree_ % 2 == 1;
+    const Index centre = degree_ / 2;  // p odd: index centred on the axis; p even: first one right of it
+    if (odd_degree && raw == mirror) {
+        folded = 0;
+        return parity_ == Parity::even ? 1.0 : 0.0;
+    }
+    const Index right = std::max(raw, mirror);
+    folded = right - centre - ((odd_degree && parity_ == Parity::odd) ? 1 : 0);
+    return (raw < mirror && parity_ == Parity::odd) ? -1.0 : 1.0;
+}
+
+Index SplineSpace::element_of(double xi) const {
+    const auto upper = std::upper_bound(breakpoints_.begin(), breakpoints_.end(), xi);
+    const Index element = static_cast<Index>(upper - breakpoints_.begin()) - 1;
+    return std::clamp<Index>(element, 0, static_cast<Index>(breakpoints_.size()) - 2);
+}
+
+// Algorithm A2.3 of Piegl & Tiller, "The NURBS Book".
+void SplineSpace::raw_basis(double xi, Index element, int highest, std::array<std::array<double, 6>, 6>& values) const {
+    const Index span = element + degree_;
+    const int p = degree_;
+    std::array<std::array<double, 6>, 6> ndu{};
+    std::array<double, 6> left{};
+    std::array<double, 6> right{};
+    ndu[0][0] = 1.0;
+    for (int j = 1; j <= p; ++j) {
+        left[at(j)] = xi - knots_[at(span + 1 - j)];
+        right[at(j)] = knots_[at(span + j)] - xi;
+        double saved = 0.0;
+        for (int r = 0; r < j; ++r) {
+            ndu[at(j)][at(r)] = right[at(r + 1)] + left[at(j - r)];
+            const double term = ndu[at(r)][at(j - 1)] / ndu[at(j)][at(r)];
+            ndu[at(r)][at(j)] = saved + right[at(r + 1)] * term;
+            saved = left[at(j - r)] * term;
+        }
+        ndu[at(j)][at(j)] = saved;
+    }
+    for (int j = 0; j <= p; ++j) values[0][at(j)] = ndu[at(j)][at(p)];
+    for (int r = 0; r <= p; ++r) {
+        std::array<std::array<double, 6>, 2> a{};
+        std::size_t s1 = 0;
+        std::size_t s2 = 1;
+        a[0][0] = 1.0;
+        for (int k = 1; k <= highest; ++k) {
+            double d = 0.0;
+            const int rk = r - k;
+            const int pk = p - k;
+            if (r >= k) {
+                a[s2][0] = a[s1][0] / ndu[at(pk + 1)][at(rk)];
+                d = a[s2][0] * ndu[at(rk)][at(pk)];
+            }
+            const int j1 = rk >= -1 ? 1 : -rk;
+            const int j2 = (r - 1 <= pk) ? k - 1 : p - r;
+            for (int j = j1; j <= j2; ++j) {
+                a[s2][at(j)] = (a[s1][at(j)] - a[s1][at(j - 1)]) / ndu[at(pk + 1)][at(rk + j)];
+                d += a[s2][at(j)] * ndu[at(rk + j)][at(pk)];
+            }
+            if (r <= pk) {
+                a[s2][at(k)] = -a[s1][at(k - 1)] / ndu[at(pk + 1)][at(r)];
+                d += a[s2][at(k)] * ndu[at(r)][at(pk)];
+            }
+            values[at(k)][at(r)] = d;
+            std::swap(s1, s2);
+        }
+    }
+    double factor = p;
+    for (int k = 1; k <= highest; ++k) {
+        for (int j = 0; j <= p; ++j) values[at(k)][at(j)] *= factor;
+        factor *= (p - k);
+    }
+}
+
+BasisRow SplineSpace::basis(double xi, Index element) const {
+    if (element < 0) element = element_of(xi);
+    std::array<std::array<double, 6>, 6> raw{};
+    raw_basis(xi, element, std::min(2, degree_), raw);
+    BasisRow row;
+    row.count = degree_ + 1;
+    for (int j = 0; j <= degree_; ++j) {
+        Index folded = 0;
+        const double sign = fold(element + j, folded);
+        row.index[at(j)] = sign == 0.0 ? 0 : folded;
+        for (std::size_t k = 0; k < 3; ++k) row.value[k][at(j)] = sign * raw[k][at(j)];
+    }
+    return row;
+}
+
+std::array<double, 6> SplineSpace::taylor(const Eigen::VectorXd& coefficients, double xi, Index element) const {
+    std::array<std::array<double, 6>, 6> raw{};
+    raw_basis(xi, element, degree_, raw);
+    std::array<double, 6> derivatives{};
+    for (int j = 0; j <= degree_; ++j) {
+        Index folded = 0;
+        const double sign = fold(element + j, folded);
+        if (sign == 0.0) continue;
+        for (int k = 0; k <= degree_; ++k) derivatives[at(k)] += sign * raw[at(k)][at(j)] * coefficients[folded];
+    }
+    return derivatives;
+}
+
+std::vector<double> SplineSpace::greville_points() const {
+    std::vector<double> points(at(dimension_), 0.0);
+    const Index raw_count = static_cast<Index>(knots_.size()) - degree_ - 1;
+    for (Index raw = 0; raw < raw_count; ++raw) {
+        Index folded = 0;
+        const double sign = fold(raw, folded);
+        if (sign == 0.0 || raw < degree_ - 1 - raw) continue;
+        double sum = 0.0;
+        for (int k = 1; k <= degree_; ++k) sum += knots_[at(raw + k)];
+        points[at(folded)] = std::max(0.0, sum / degree_);
+    }
+    return points;
+}
+
+std::vector<double> uniform_breakpoints(Index elements) {
+    std::vector<double> points;
+    for (Index i = 0; i <= elements; ++i) points.push_back(static_cast<double>(i) / static_cast<double>(elements));
+    return points;
+}
+
+Eigen::MatrixXd collocation_matrix(const SplineSpace& space, const std::vector<double>& points, int derivative) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(static_cast<Index>(points.size()), space.dimension());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const BasisRow row = space.basis(points[i]);
+        for (int j = 0; j < row.count; ++j) {
+            matrix(static_cast<Index>(i), row.index[at(j)]) += row.value[at(derivative)][at(j)];
+        }
+    }
+    return matrix;
+}
+
+}  // namespace endoflow::boundary_integral

@@ -1,0 +1,74 @@
+#pragma once
+
+// B-splines on [0, 1] that continue smoothly through the axis at 0: only combinations with the given parity are kept.
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace endoflow::boundary_integral {
+
+using Index = Eigen::Index;
+
+enum class Parity { even, odd };
+
+// Values of the (at most six) functions of a space that do not vanish at one point. An index may appear twice (a
+// function and its mirror image): contributions add.
+struct BasisRow {
+    static constexpr int capacity = 6;
+    int count = 0;
+    std::array<Index, capacity> index{};
+    std::array<std::array<double, capacity>, 3> value{};  // value[k][j]: k-th derivative of function j
+
+    template <class Coefficients>
+    double evaluate(const Coefficients& coefficients, int derivative = 0) const {
+        double sum = 0.0;
+        for (int j = 0; j < count; ++j) {
+            const auto at = static_cast<std::size_t>(j);
+            sum += value[static_cast<std::size_t>(derivative)][at] * coefficients[index[at]];
+        }
+        return sum;
+    }
+};
+
+// Splines of degree p <= 5 on the increasing breakpoints 0 = b_0 < ... < b_n = 1, of maximal smoothness inside, with
+// the stated parity about 0 and a (p+1)-fold knot at 1. The first p breakpoint intervals must be equally long.
+// Dimension (n intervals): p odd: n + (p+1)/2 even or n + (p-1)/2 odd functions; p even: n + p/2.
+class SplineSpace {
+  public:
+    SplineSpace(int degree, std::vector<double> breakpoints, Parity parity);
+
+    Index dimension() const { return dimension_; }
+    int degree() const { return degree_; }
+    const std::vector<double>& breakpoints() const { return breakpoints_; }
+
+    // Basis at xi in [0, 1] with the first two derivatives. `element` picks the polynomial piece (for one-sided values
+    // at breakpoints); -1 finds it.
+    BasisRow basis(double xi, Index element = -1) const;
+    Index element_of(double xi) const;
+
+    // Greville abscissae, one per function, increasing; the first is 0 for odd degree and even parity.
+    std::vector<double> greville_points() const;
+
+    // All polynomial derivatives 0..degree of the spline with these coefficients, at xi in the given element.
+    std::array<double, 6> taylor(const Eigen::VectorXd& coefficients, double xi, Index element) const;
+
+  private:
+    int degree_;
+    Parity parity_;
+    std::vector<double> breakpoints_;
+    std::vector<double> knots_;
+    Index dimension_ = 0;
+
+    double fold(Index raw, Index& folded) const;  // sign (or 0) and folded index of a raw B-spline
+    // raw functions first..first+degree on the knot span, derivatives 0..highest
+    void raw_basis(double xi, Index element, int highest, std::array<std::array<double, 6>, 6>& values) const;
+};
+
+std::vector<double> uniform_breakpoints(Index elements);
+
+// Values (derivative k) of all functions at many points: points x dimension, dense.
+Eigen::MatrixXd collocation_matrix(const SplineSpace& space, const std::vector<double>& points, int derivative = 0);
+
+}  // namespace endoflow::boundary_integral

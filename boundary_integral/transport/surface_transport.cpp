@@ -1,0 +1,151 @@
+#include "boundary_integral/transport/surface_transport.h"
+
+#include "shared/model/double_well.h"
+
+namespace endoflow::boundary_integral {
+
+namespace {
+
+// sum over points of weight(i) * phi_a^(da) phi_b^(db)
+template <class Weight>
+Eigen::MatrixXd assemble(const MembraneSpace& space, std::size_t da, std::size_t db, Weight weight) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(space.axial_count(), space.axial_count());
+    for (std::size_t i = 0; i < space.xi.size(); ++i) {
+        const BasisRow& phi = space.axial_rows[i];
+        const double w = space.weight[i] * weight(i);
+        for (std::size_t a = 0; a < 6; ++a) {
+            for (std::size_t b = 0; b < 6; ++b) {
+                matrix(phi.index[a], phi.index[b]) += w * phi.value[da][a] * phi.value[db][b];
+            }
+        }
+    }
+    return matrix;
+}
+
+template <class Weight>
+Eigen::VectorXd assemble_vector(const MembraneSpace& space, std::size_t derivative, Weight weight) {
+    Eigen::VectorXd vector = Eigen::VectorXd::Zero(space.axial_count());
+    for (std::size_t i = 0; i < space.xi.size(); ++i) {
+        const BasisRow& phi = space.axial_rows[i];
+        const double w = space.weight[i] * weight(i);
+        for (std::size_t a = 0; a < 6; ++a) vector[phi.index[a]] += w * phi.value[derivative][a];
+    }
+    return vector;
+}
+
+// sum over points of  phi^(d) [ from_r delta r + from_r1 delta r' + from_z1 delta z' ]
+struct PointVariation {
+    double r, r1, z1;
+};
+template <class Variation>
+Eigen::MatrixXd assemble_variation(const MembraneSpace& space, std::size_t derivative, Variation variation) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(space.axial_count(), space.curve_count());
+    const Index offset = space.radial_count();
+    for (std::size_t i = 0; i < space.xi.size(); ++i) {
+        const BasisRow& phi = space.axial_rows[i];
+        const BasisRow& radial = space.radial_rows[i];
+        const PointVariation v = variation(i);
+        for (std::size_t a = 0; a < 6; ++a) {
+            const double test = space.weight[i] * phi.value[derivative][a];
+            for (std::size_t b = 0; b < 6; ++b) {
+                matrix(phi.index[a], radial.index[b]) += test * (v.r * radial.value[0][b] + v.r1 * radial.value[1][b]);
+                matrix(phi.index[a], offset + phi.index[b]) += test * v.z1 * phi.value[1][b];
+            }
+        }
+    }
+    return matrix;
+}
+
+// delta(r g) and delta(r/g), times a factor
+PointVariation area_variation(const CurvePoint& p, double factor) {
+    return {factor * p.g, factor * p.r * p.r1 / p.g, factor * p.r * p.z1 / p.g};
+}
+PointVariation conductance_variation(const CurvePoint& p, double factor) {
+    const double cubed = p.g * p.g * p.g;
+    return {factor / p.g, -factor * p.r * p.r1 / cubed, -factor * p.r * p.z1 / cubed};
+}
+
+// mu (24), weakly: M mu = eps K c + int W'(c)/eps phi dA
+Eigen::VectorXd chemical_potential(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& c,
+                                   double width, const LuFactors& mass, const Eigen::MatrixXd& stiffness) {
+    Eigen::VectorXd weak = width * (stiffness * c);
+    weak += assemble_vector(space, 0, [&](std::size_t i) {
+        return double_well(samples.c[i]).first / width * samples.curve[i].r * samples.curve[i].g;
+    });
+    return mass.solve(weak);
+}
+
+}  // namespace
+
+Eigen::MatrixXd surface_mass_matrix(const MembraneSpace& space, const std::vector<CurvePoint>& curve) {
+    return assemble(space, 0, 0, [&](std::size_t i) { return curve[i].r * curve[i].g; });
+}
+
+Eigen::MatrixXd surface_stiffness_matrix(const MembraneSpace& space, const std::vector<CurvePoint>& curve) {
+    return assemble(space, 1, 1, [&](std::size_t i) { return curve[i].r / curve[i].g; });
+}
+
+Eigen::VectorXd concentration_from_moments(const MembraneSpace& space, const std::vector<CurvePoint>& curve,
+                                           const Eigen::VectorXd& moments) {
+    return LuFactors(surface_mass_matrix(space, curve), "concentration mass").solve(moments);
+}
+
+Eigen::VectorXd diffusion_rate(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& c,
+                               const MoleculeParameters& molecules) {
+    if (molecules.transport == Transport::advection) return Eigen::VectorXd::Zero(space.axial_count());
+    const Eigen::MatrixXd stiffness = surface_stiffness_matrix(space, samples.curve);
+    if (molecules.transport == Transport::fickian) return -molecules.diffusivity * (stiffness * c);
+    const LuFactors mass(surface_mass_matrix(space, samples.curve), "concentration mass");
+    return -molecules.mobility *
+           (stiffness * chemical_potential(space, samples, c, molecules.interface_width, mass, stiffness));
+}
+
+Eigen::VectorXd advection_rate(const MembraneSpace& space, const MembraneSamples& samples,
+                               const std::vector<double>& relative_velocity) {
+    return assemble_vector(space, 1,
+                           [&](std::size_t i) { return samples.c[i] * samples.curve[i].r * relative_velocity[i]; });
+}
+
+TransportDerivatives transport_derivatives(const MembraneSpace& space, const MembraneSamples& samples,
+                                           const Eigen::VectorXd& c, const MoleculeParameters& molecules,
+                                           const std::vector<double>& relative_velocity) {
+    TransportDerivatives result;
+    const auto& curve = samples.curve;
+    const LuFactors mass(surface_mass_matrix(space, curve), "concentration mass");
+    result.c_from_moments = mass.solve(Eigen::MatrixXd::Identity(space.axial_count(), space.axial_count()));
+    result.c_from_curve = -mass.solve(
+        assemble_variation(space, 0, [&](std::size_t i) { return area_variation(curve[i], samples.c[i]); }));
+    result.rate_from_c = assemble(space, 1, 0, [&](std::size_t i) { return curve[i].r * relative_velocity[i]; });
+    result.rate_from_curve = assemble_variation(space, 1, [&](std::size_t i) {
+        return PointVariation{samples.c[i] * relative_velocity[i], 0.0, 0.0};
+    });
+    if (molecules.transport == Transport::advection) return result;
+
+    const Eigen::MatrixXd stiffness = surface_stiffness_matrix(space, curve);
+    if (molecules.transport == Transport::fickian) {
+        result.rate_from_c -= molecules.diffusivity * stiffness;
+        result.rate_from_curve -= molecules.diffusivity * assemble_variation(space, 1, [&](std::size_t i) {
+                                      return conductance_variation(curve[i], samples.c1[i]);
+                                  });
+        return result;
+    }
+    const double width = molecules.interface_width;
+    const Eigen::VectorXd mu = chemical_potential(space, samples, c, width, mass, stiffness);
+    const Eigen::MatrixXd weak_from_c = width * stiffness + assemble(space, 0, 0, [&](std::size_t i) {
+                                            return double_well(samples.c[i]).second / width * curve[i].r * curve[i].g;
+                                        });
+    result.rate_from_c -= molecules.mobility * stiffness * mass.solve(weak_from_c);
+    Eigen::MatrixXd weak_from_curve = assemble_variation(
+        space, 1, [&](std::size_t i) { return conductance_variation(curve[i], width * samples.c1[i]); });
+    weak_from_curve += assemble_variation(space, 0, [&](std::size_t i) {
+        const double value = space.axial_rows[i].evaluate(mu, 0);
+        return area_variation(curve[i], double_well(samples.c[i]).first / width - value);
+    });
+    result.rate_from_curve -= molecules.mobility * (stiffness * mass.solve(weak_from_curve));
+    result.rate_from_curve -= molecules.mobility * assemble_variation(space, 1, [&](std::size_t i) {
+                                  return conductance_variation(curve[i], space.axial_rows[i].evaluate(mu, 1));
+                              });
+    return result;
+}
+
+}  // namespace endoflow::boundary_integral

@@ -1,0 +1,45 @@
+#pragma once
+
+// Conservative transport of the molecules along the moving curve. Unknown: the moments m_k = int c phi_k dA of c
+// against the axial functions (dA = r g dxi, no 2 pi). The phi_k sum to one, so sum(m) is the molecules' mass and
+// fluxes between the m_k conserve it to round-off whatever the time step:
+//     d(m_k)/dt = int phi_k' c r v dxi - D int (r/g) mu' phi_k' dxi
+//     v = tangential velocity of the material relative to the mesh (14) mu: Cahn-Hilliard -eps Lap_Gamma c + W'(c)/eps
+//     (23),(24); Fickian mu = c (22); advection D = 0
+
+#include <Eigen/Core>
+
+#include "boundary_integral/flow/dense_solver.h"
+#include "boundary_integral/membrane/membrane_space.h"
+#include "shared/parameters/parameters.h"
+
+namespace endoflow::boundary_integral {
+
+// int phi_i phi_j dA, axial x axial, and int (r/g) phi_i' phi_j' dxi.
+Eigen::MatrixXd surface_mass_matrix(const MembraneSpace& space, const std::vector<CurvePoint>& curve);
+Eigen::MatrixXd surface_stiffness_matrix(const MembraneSpace& space, const std::vector<CurvePoint>& curve);
+
+// Coefficients of c from its moments.
+Eigen::VectorXd concentration_from_moments(const MembraneSpace& space, const std::vector<CurvePoint>& curve,
+                                           const Eigen::VectorXd& moments);
+
+// d(m)/dt by diffusion alone.
+Eigen::VectorXd diffusion_rate(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& c,
+                               const MoleculeParameters& molecules);
+
+// d(m)/dt by advection with `relative_velocity` (values of v at the Gauss points, nm/us).
+Eigen::VectorXd advection_rate(const MembraneSpace& space, const MembraneSamples& samples,
+                               const std::vector<double>& relative_velocity);
+
+// Derivatives of diffusion_rate + advection_rate (at fixed v) and of c itself.
+struct TransportDerivatives {
+    Eigen::MatrixXd c_from_moments;   // dc/dm = M^-1
+    Eigen::MatrixXd c_from_curve;     // dc/d(curve coefficients) at fixed m, axial x curve_count
+    Eigen::MatrixXd rate_from_c;      // d rate/dc at fixed curve
+    Eigen::MatrixXd rate_from_curve;  // d rate/d(curve) at fixed c
+};
+TransportDerivatives transport_derivatives(const MembraneSpace& space, const MembraneSamples& samples,
+                                           const Eigen::VectorXd& c, const MoleculeParameters& molecules,
+                                           const std::vector<double>& relative_velocity);
+
+}  // namespace endoflow::boundary_integral

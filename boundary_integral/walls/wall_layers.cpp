@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+
+#include "boundary_integral/quadrature/singular_rules.h"
+#include "boundary_integral/walls/wall_panels.h"
+
+namespace endoflow::boundary_integral {
+
+namespace {
+
+constexpr int singular_points = 24;
+constexpr int near_points = 20;
+constexpr double near_distance = 1.2;  // in panel lengths
+
+std::size_t at(Index i) {
+    return static_cast<std::size_t>(i);
+}
+
+// A quadrature point on a panel: either one of its nodes or an extra point with interpolation weights.
+struct PanelPoint {
+    double tau;
+    double fraction_offset;  // fraction - fraction(target) when both lie on one segment
+    double weight;           // d tau
+};
+
+class Builder {
+  public:
+    Builder(const WallPanels& walls, Index rows)
+        : walls_(walls), singular_rule_(gauss_legendre(singular_points)), near_rule_(gauss_legendre(near_points)) {
+        matrix_ = RowMatrix::Zero(rows, walls.unknowns());
+    }
+
+    void add(const WallTarget& target) {
+        for (const WallPanel& panel : walls_.panels()) add_panel(target, panel);
+    }
+
+    RowMatrix take() { return std::move(matrix_); }
+
+  private:
+    const WallPanels& walls_;
+    QuadratureRule singular_rule_, near_rule_;
+    RowMatrix matrix_;
+    RingSources sources_;
+    RingKernels kernels_;
+
+    void add_panel(const WallTarget& target, const WallPanel& panel) {
+        const WallSegment& segment = walls_.segments()[panel.segment];
+        const std::size_t count = walls_.rule().nodes.size();
+        const bool own = target.node >= panel.first_node && target.node < panel.first_node + static_cast<Index>(count);
+        if (own) {
+            const double tau = walls_.nodes()[at(target.node)].tau;
+            add_points(target, panel, logarithmic_rule(panel.tau_begin, panel.tau_end, tau, singular_rule_));
+            return;
+        }
+        // Closest point of the straight panel, through the fraction of the segment.
+        const double length = segment.length();
+        const double along = ((target.at.r - segment.r_begin) * (segment.r_end - segment.r_begin) +
+                              (target.at.z - segment.z_begin) * (segment.z_end - segment.z_begin)) /
+                             (length * length);
+        const double low = segment.fraction(panel.tau_begin);
+        const double high = segment.fraction(panel.tau_end);
+        const double fraction = std::clamp(along, low, high);
+        const double distance =
+            std::hypot(segment.r_begin + fraction * (segment.r_end - segment.r_begin) - target.at.r,
+                       segment.z_begin + fraction * (segment.z_end - segment.z_begin) - target.at.z);
+        if (distance > near_distance * length * (high - low)) {
+            add_nodes(target, panel);
+            return;
+        }
+        double tau = segment.clustering == Clustering::both_ends
+                         ? std::acos(std::clamp(1.0 - 2.0 * fraction, -1.0, 1.0)) / std::acos(-1.0)
+                         : std::asin(std::clamp(fraction, 0.0, 1.0)) / std::acos(0.0);
+        tau = std::clamp(tau, panel.tau_begin, panel.tau_end);
+        // Where the map is stationary the width in tau is that of its quadratic part: whichever is smaller.
+        const double speed = length * segment.fraction_rate(tau);
+        const double curvature = length * std::acos(-1.0) * std::acos(-1.0) * 0.25;
+        const double width = 1.0 / (speed / distance + std::sqrt(curvature / distance));
+        add_points(target, panel, near_singular_rule(panel.tau_begin, panel.tau_end, tau, width, near_rule_));
+    }
+
+    // Differences source - target on straight segments; the normal offset is constant, exactly zero on the target's own
+    // line.
+    void push(const WallTarget& target, const WallSegment& segment, double fraction, double fraction_offset,
+              bool same) {
+        const double dr = segment.r_end - segment.r_begin;
+        const double dz = segment.z_end - segment.z_begin;
+        const double r = segment.r_begin + fraction * dr;
+        const double z = segment.z_begin + fraction * dz;
+        sources_.radius.push_back(r);
+        sources_.delta_r.push_back(same ? fraction_offset * dr : r - target.at.r);
+        sources_.delta_z.push_back(same ? fraction_offset * dz : z - target.at.z);
+        sources_.normal_r.push_back(segment.normal_r);
+        sources_.normal_offset.push_back(segment.normal_r * (segment.r_begin - target.at.r) +
+                                         segment.normal_z * (segment.z_begin - target.at.z));
+    }
+
+    void add_nodes(const WallTarget& target, const WallPanel& panel) {
+        const WallSegment& segment = walls_.segments()[panel.segment];
+        const std::size_t count = walls_.rule().nodes.size();
+        sources_.resize(0);
+        for (std::size_t i = 0; i < count; ++i) {
+            push(target, segment, segment.fraction(walls_.nodes()[at(panel.first_node) + i].tau), 0.0, false);
+        }
+        evaluate_ring_kernels(target.at.r, sources_, kernels_);
+        for (std::size_t i = 0; i < count; ++i) {
+            const WallNode& node = walls_.nodes()[at(panel.first_node) + i];
+            deposit(target, segment, panel.first_node + static_cast<Index>(i), i, node.weight * node.r * node.speed,
+                    node.weight * node.r);
+        }
+    }
+
+    void add_points(const WallTarget& target, const WallPanel& panel, const OffsetRule& rule) {
+        const WallSegment& segment = walls_.segments()[panel.segment];
+        const bool same = target.node >= 0 && walls_.nodes()[at(target.node)].segment == panel.segment;
+        const double target_tau = target.node >= 0 ? walls_.nodes()[at(target.node)].tau : 0.0;
+        sources_.resize(0);
+        for (double offset : rule.offsets) {
+            const double tau = rule.origin + offset;
+            const double from_target = (rule.origin - target_tau) + offset;
+            push(target, segment, segment.fraction(tau),
+                 same ? segment.fraction_difference(target_tau, from_target) : 0.0, same);
+        }
+        evaluate_ring_kernels(target.at.r, sources_, kernels_);
+        for (std::size_t i = 0; i < rule.offsets.size(); ++i) {
+            const double tau = rule.origin + rule.offsets[i];
+            const double speed = segment.length() * segment.fraction_rate(tau);
+            const std::vector<double> shape = walls_.lagrange(panel, tau);
+            for (std::size_t j = 0; j < shape.size(); ++j) {
+                const double weight = rule.weights[i] * sources_.radius[i] * shape[j];
+                deposit(target, segment, panel.first_node + static_cast<Index>(j), i, weight * speed, weight);
+            }
+        }
+    }
+
+    // area = r ds, line = r d tau: the band's unknown t_z ds/d tau carries its own Jacobian.
+    void deposit(const WallTarget& target, const WallSegment& segment, Index node, std::size_t i, double area,
+                 double line) {
+        const auto into = [&](Index row, double t_r, double t_z, double g_z) {
+            if (row < 0) return;
+            matrix_(row, 2 * node) += segment.viscosity * area * t_r;
+            matrix_(row, 2 * node + 1) += segment.kind == WallKind::free ? segment.viscosity * area * t_z : -line * g_z;
+        };
+        into(target.rows.radial, kernels_.t_rr[i], kernels_.t_rz[i], kernels_.g_rz[i]);
+        into(target.rows.axial, kernels_.t_zr[i], kernels_.t_zz[i], kernels_.g_zz[i]);
+    }
+};
+
+}  // namespace
+
+RowMatrix wall_layers(const WallPanels& walls, const std::vector<WallTarget>& targets, Index rows) {
+    Builder builder(walls, rows);
+    for (const WallTarget& target : targets) builder.add(target);
+    return builder.take();
+}
+
+}  // namespace endoflow::boundary_integral

@@ -1,0 +1,88 @@
+#include "boundary_integral/walls/wall_panels.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace endoflow::boundary_integral {
+
+namespace {
+constexpr double half_pi = 0.5 * std::numbers::pi;
+}
+
+double WallSegment::length() const {
+    return std::hypot(r_end - r_begin, z_end - z_begin);
+}
+
+double WallSegment::fraction(double tau) const {
+    const double sine = std::sin(half_pi * tau);
+    return clustering == Clustering::both_ends ? sine * sine : sine;
+}
+
+double WallSegment::fraction_rate(double tau) const {
+    return clustering == Clustering::both_ends ? half_pi * std::sin(2.0 * half_pi * tau)
+                                               : half_pi * std::cos(half_pi * tau);
+}
+
+double WallSegment::fraction_difference(double tau, double offset) const {
+    if (clustering == Clustering::both_ends) {
+        return std::sin(half_pi * (2.0 * tau + offset)) * std::sin(half_pi * offset);
+    }
+    return 2.0 * std::cos(half_pi * (tau + 0.5 * offset)) * std::sin(0.5 * half_pi * offset);
+}
+
+WallPanels::WallPanels(const DomainParameters& domain, const FluidParameters& fluid, int nodes_per_panel)
+    : rule_(gauss_legendre(nodes_per_panel)) {
+    const double radius = domain.radius;
+    const double height = domain.height;
+    const double rim = domain.membrane_height;
+    const double band = domain.pin_half_width;
+    const double below = fluid.viscosity_extracellular;
+    const double above = fluid.viscosity_intracellular;
+    segments_ = {
+        {0.0, 0.0, radius, 0.0, 0.0, -1.0, below, WallKind::free, Clustering::end, 4},
+        {radius, 0.0, radius, rim - band, 1.0, 0.0, below, WallKind::free, Clustering::both_ends, 5},
+        {radius, rim - band, radius, rim, 1.0, 0.0, below, WallKind::band, Clustering::both_ends, 4},
+        {radius, rim, radius, rim + band, 1.0, 0.0, above, WallKind::band, Clustering::both_ends, 4},
+        {radius, rim + band, radius, height, 1.0, 0.0, above, WallKind::free, Clustering::both_ends, 5},
+        {0.0, height, radius, height, 0.0, 1.0, above, WallKind::free, Clustering::end, 4},
+    };
+    for (std::size_t s = 0; s < segments_.size(); ++s) {
+        const WallSegment& segment = segments_[s];
+        const double step = 1.0 / segment.panels;
+        for (int k = 0; k < segment.panels; ++k) {
+            panels_.push_back({s, k * step, (k + 1) * step, static_cast<Index>(nodes_.size())});
+            for (std::size_t i = 0; i < rule_.nodes.size(); ++i) {
+                const double tau = (k + 0.5 * (1.0 + rule_.nodes[i])) * step;
+                const double fraction = segment.fraction(tau);
+                nodes_.push_back({s, tau, 0.5 * step * rule_.weights[i],
+                                  segment.r_begin + fraction * (segment.r_end - segment.r_begin),
+                                  segment.z_begin + fraction * (segment.z_end - segment.z_begin),
+                                  segment.length() * segment.fraction_rate(tau)});
+            }
+        }
+    }
+    for (std::size_t i = 0; i < rule_.nodes.size(); ++i) {
+        const double x = rule_.nodes[i];
+        barycentric_.push_back((i % 2 == 0 ? 1.0 : -1.0) * std::sqrt((1.0 - x * x) * rule_.weights[i]));
+    }
+}
+
+std::vector<double> WallPanels::lagrange(const WallPanel& panel, double tau) const {
+    const double x = 2.0 * (tau - panel.tau_begin) / (panel.tau_end - panel.tau_begin) - 1.0;
+    std::vector<double> values(rule_.nodes.size());
+    double sum = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double distance = x - rule_.nodes[i];
+        if (distance == 0.0) {
+            values.assign(values.size(), 0.0);
+            values[i] = 1.0;
+            return values;
+        }
+        values[i] = barycentric_[i] / distance;
+        sum += values[i];
+    }
+    for (double& value : values) value /= sum;
+    return values;
+}
+
+}  // namespace endoflow::boundary_integral

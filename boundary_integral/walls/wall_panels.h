@@ -1,0 +1,83 @@
+#pragma once
+
+// The outer walls: straight segments cut into panels, with Gauss nodes clustered towards corners, band edges and the
+// rim.
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "boundary_integral/operators/layer_block.h"
+#include "boundary_integral/quadrature/gauss_legendre.h"
+#include "shared/parameters/parameters.h"
+
+namespace endoflow::boundary_integral {
+
+enum class WallKind { free, band };  // stress-free; pin band with u_z = 0 and t_r = 0
+enum class Clustering { end, both_ends };
+
+// Straight segment from (r_begin, z_begin) to (r_end, z_end), parametrised by tau in [0, 1] so that nodes crowd at the
+// ends: the fraction of the length is sin^2(pi tau/2) (both ends) or sin(pi tau/2) (the end). Traction ~
+// distance^(-1/2) at a band edge and velocity ~ distance^(1/2) beside it become smooth in tau.
+struct WallSegment {
+    double r_begin, z_begin, r_end, z_end;  // nm
+    double normal_r, normal_z;              // outward
+    double viscosity;                       // of the fluid inside, pN us/nm^2
+    WallKind kind;
+    Clustering clustering;
+    int panels;
+
+    double length() const;
+    double fraction(double tau) const;
+    double fraction_rate(double tau) const;  // d fraction / d tau
+    double fraction_difference(double tau,
+                               double offset) const;  // fraction(tau + offset) - fraction(tau), no cancellation
+};
+
+struct WallPanel {
+    std::size_t segment;
+    double tau_begin, tau_end;
+    Index first_node;
+};
+
+struct WallNode {
+    std::size_t segment;
+    double tau;
+    double weight;  // d tau weight
+    double r, z;
+    double speed;  // ds/d tau, nm
+};
+
+// Unknown 2 i of node i is u_r; 2 i + 1 is u_z on free walls and t_z ds/d tau (pN/nm) in the band.
+class WallPanels {
+  public:
+    WallPanels(const DomainParameters& domain, const FluidParameters& fluid, int nodes_per_panel);
+
+    const std::vector<WallSegment>& segments() const { return segments_; }
+    const std::vector<WallPanel>& panels() const { return panels_; }
+    const std::vector<WallNode>& nodes() const { return nodes_; }
+    const QuadratureRule& rule() const { return rule_; }
+    Index unknowns() const { return 2 * static_cast<Index>(nodes_.size()); }
+    bool is_band(const WallNode& node) const { return segments_[node.segment].kind == WallKind::band; }
+
+    // Values at tau of the Lagrange polynomials through the panel's nodes.
+    std::vector<double> lagrange(const WallPanel& panel, double tau) const;
+
+  private:
+    std::vector<WallSegment> segments_;
+    std::vector<WallPanel> panels_;
+    std::vector<WallNode> nodes_;
+    QuadratureRule rule_;
+    std::vector<double> barycentric_;
+};
+
+struct WallTarget {
+    Target at;
+    TargetRows rows;
+    Index node = -1;  // when the target is a wall node
+};
+
+// Rows of  sum_k nu_k int_{wall k} u.T.m dS - int_band t.G dS  acting on the wall unknowns.
+RowMatrix wall_layers(const WallPanels& walls, const std::vector<WallTarget>& targets, Index rows);
+
+}  // namespace endoflow::boundary_integral
