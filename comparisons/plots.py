@@ -20,6 +20,9 @@ DRAWN_SPACING = 0.4
 #: Number of colour steps between c = 0 and c = 1.
 COLOUR_LEVELS = 64
 
+#: Smallest part of the largest value that a logarithmic axis shows: what is lower started from zero.
+SMALLEST_SHOWN = 1e-5
+
 
 def write_all(a, b, metrics, labels, directory):
     """Write every plot of endoflow.Run objects a, b and their metrics (dict) into directory (Path); returns {name: title}."""
@@ -121,7 +124,7 @@ def membranes(a, b, times, labels, colours):
     )
     for axes, time, pair in zip(grid.flat, times, pairs):
         lines = draw_pair(axes, pair, colours, z_range, rim=pair[0].r[-1])
-        axes.set_title(f"t = {time:.3g} µs")
+        axes.set_title(f"t = {time:.4g} µs")
     for axes in grid[-1]:
         axes.set_xlabel("r (nm)")
     for axes in grid[:, 0]:
@@ -165,25 +168,25 @@ def outlines(a, b, times, labels, colours):
             r, z = resample(shape.r, shape.z, DRAWN_SPACING)
             axes.plot(r, z, color=colour, linestyle=dashes)
         axes.set(aspect="equal", xlim=(0, pair[0].r[-1]), ylim=z_range, xlabel="r (nm)")
-        axes.set_title(f"t = {time:.3g} µs")
+        axes.set_title(f"t = {time:.4g} µs")
     grid[0, 0].set_ylabel("z (nm)")
     _name_lines(figure, labels, colours)
     return figure
 
 
 def histories(a, b, labels, colours, time_range):
-    """Every quantity of style.HISTORY_PLOTS against time, both runs overlaid; budding marked; time_range as of time_axis()."""
+    """Every quantity of style.HISTORY_PLOTS against time, both runs overlaid, budding marked; time_range as of time_axis()."""
     figure, grid = plt.subplots(2, 4, figsize=(12.4, 5.2), layout="constrained")
-    for axes, column in zip(grid.flat, style.HISTORY_PLOTS):
-        for run, colour, dashes in zip((a, b), colours, style.LINE_STYLES):
-            values = run.history[column] * style.HISTORY_PLOTS[column].factor
-            axes.plot(run.history["time_us"], values, color=colour, linestyle=dashes)
+    for axes, (column, shown) in zip(grid.flat, style.HISTORY_PLOTS.items()):
+        values = [run.history[column] * shown.factor for run in (a, b)]
+        for run, value, colour, dashes in zip((a, b), values, colours, style.LINE_STYLES):
+            axes.plot(run.history["time_us"], value, color=colour, linestyle=dashes)
             _mark_budding(axes, run, colour)
         _set_time_axis(axes, time_range)
-        _scale(axes, column, np.concatenate([run.history[column] for run in (a, b)]))
+        _set_value_axis(axes, np.concatenate(values), shown.logarithmic)
         axes.set_title(style.axis_label(column))
         axes.set_xlabel("time (µs)")
-    if np.isfinite(a.history["neck_radius_nm"]).any() or np.isfinite(b.history["neck_radius_nm"]).any():
+    if np.isfinite(np.concatenate([run.history["neck_radius_nm"] for run in (a, b)])).any():
         grid[0, 0].axhline(style.BUDDING_NECK_RADIUS, color="#888888", linewidth=0.9, linestyle=":")
         grid[0, 0].set_ylim(bottom=0)
     _budding_times(grid.flat[-1], (a, b), labels, colours)
@@ -204,7 +207,7 @@ def _budding_times(axes, runs, labels, colours):
 def _set_time_axis(axes, time_range):
     """Range and scale of the time axis, as of time_axis()."""
     if time_range["logarithmic"]:
-        axes.set_xscale("log")
+        axes.set_xscale("log", nonpositive="mask")
         axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
     axes.set_xlim(time_range["first"], time_range["last"])
 
@@ -216,18 +219,19 @@ def _mark_budding(axes, run, colour):
         axes.axvline(time, color=colour, linewidth=0.9, alpha=0.5, zorder=1)
 
 
-def _scale(axes, column, values):
-    """Logarithmic axis where the quantity asks for one and its values (n,) are positive and span a decade."""
+def _set_value_axis(axes, values, wants_log):
+    """Logarithmic axis if wanted and the values (n,) are positive and span a decade; says so when there are none."""
     found = values[np.isfinite(values)]
-    if not (
-        style.HISTORY_PLOTS[column].logarithmic and found.size and found.min() > 0 and found.max() > 10 * found.min()
-    ):
-        return
-    axes.set_yscale("log")
-    if found.max() < 1000 * found.min():
-        axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
-        axes.yaxis.set_minor_formatter(NullFormatter())
+    if not found.size:
+        axes.text(0.5, 0.5, "none in either run", transform=axes.transAxes, ha="center", color="#777777")
+        axes.set_yticks([])
+    elif wants_log and found.min() > 0 and found.max() > 10 * found.min():
+        axes.set_yscale("log")
+        axes.set_ylim(bottom=max(axes.get_ylim()[0], SMALLEST_SHOWN * found.max()))
+        if found.max() < 1000 * found.min():
+            axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+            axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+            axes.yaxis.set_minor_formatter(NullFormatter())
 
 
 def distances(metrics):

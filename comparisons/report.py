@@ -94,7 +94,11 @@ def figures(value, digits=4):
 
 def percent(value):
     """A relative difference in per cent, with its sign."""
-    return "–" if value is None else f"{100 * value:+.2f} %".replace("-", "−")
+    if value is None:
+        return "–"
+    if abs(value) < 1e-5:
+        return "0 %" if value == 0 else "< 0.001 %"
+    return f"{100 * value:+#.3g} %".replace("-", "−").replace(". ", " ")
 
 
 def run_colours(a, b):
@@ -133,22 +137,21 @@ def cards(metrics):
     )
     worst = f"at {setting(found['max_hausdorff_distance_time_us'], 4)} µs"
     entries = [
-        (f"Budding, {labels[0]}", figures(budding["a_us"]), "µs", "neck radius below 5 nm", "ink-a"),
-        (f"Budding, {labels[1]}", figures(budding["b_us"]), "µs", "neck radius below 5 nm", "ink-b"),
-        ("Budding time difference", figures(budding["difference_us"], 3), "µs", relative, ""),
-        (
-            "Mean distance",
-            figures(found["time_mean_of_mean_distance_nm"], 3),
-            "nm",
-            "along the curves, averaged over time",
-            "",
-        ),
-        ("Largest Hausdorff distance", figures(found["max_hausdorff_distance_nm"], 3), "nm", worst, ""),
+        (f"Budding, {labels[0]}", quantity(budding["a_us"], 4, "µs"), "neck radius below 5 nm", "ink-a"),
+        (f"Budding, {labels[1]}", quantity(budding["b_us"], 4, "µs"), "neck radius below 5 nm", "ink-b"),
+        ("Budding time difference", quantity(budding["difference_us"], 3, "µs"), relative, ""),
+        ("Mean distance", quantity(found["time_mean_of_mean_distance_nm"], 3, "nm"), "along the curves, over time", ""),
+        ("Largest Hausdorff distance", quantity(found["max_hausdorff_distance_nm"], 3, "nm"), worst, ""),
     ]
     return "".join(
-        f'<div><dt>{escaped(title)}</dt><dd class="{ink}">{value} <span class="unit">{unit}</span><small>{escaped(note)}</small></dd></div>'
-        for title, value, unit, note, ink in entries
+        f'<div><dt>{escaped(title)}</dt><dd class="{ink}">{value}<small>{escaped(note)}</small></dd></div>'
+        for title, value, note, ink in entries
     )
+
+
+def quantity(value, digits, unit):
+    """A measured number with its unit; "none" when it does not exist."""
+    return "none" if value is None else f'{figures(value, digits)} <span class="unit">{unit}</span>'
 
 
 def legend(labels):

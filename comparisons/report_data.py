@@ -13,6 +13,9 @@ from time_axis import long_after_budding, time_axis
 POINTS = 220
 FRAMES = 160
 
+#: Least height (nm) of the picture of the membranes.
+LEAST_HEIGHT = 60.0
+
 #: Most points of an embedded history line.
 LINE_POINTS = 500
 
@@ -68,9 +71,10 @@ def start_time(metrics):
 
 
 def height_range(pairs):
-    """Lowest and highest z (nm) shown, with room around all shapes."""
+    """Lowest and highest z (nm) shown: room around all shapes, and enough of it for a membrane that stays flat."""
     z = np.concatenate([shape.z for pair in pairs for shape in pair])
-    return [float(z.min() - 10), float(z.max() + 10)]
+    lowest = z.min() - 10
+    return [float(lowest), float(max(z.max() + 10, lowest + LEAST_HEIGHT))]
 
 
 def packed_curves(shapes):

@@ -1,5 +1,8 @@
 // Small line charts with a cursor at the time shown. All charts share one time axis.
 
+// Smallest part of the largest value that a logarithmic axis shows: what is lower started from zero.
+const SMALLEST_SHOWN = 1e-5;
+
 const CHART = { width: 320, height: 176, left: 52, right: 16, top: 10, bottom: 24 };
 
 function svgElement(name, attributes, parent) {
@@ -62,7 +65,7 @@ function valueRange(chart) {
     });
   }
   if (low > high) return [0, 1];
-  if (chart.logarithmic) return [low / 1.15, high * 1.15];
+  if (chart.logarithmic) return [Math.max(low / 1.15, high * SMALLEST_SHOWN), high * 1.15];
   if (chart.fromZero) low = Math.min(low, 0);
   const room = (high - low || Math.abs(high) || 1) * 0.06;
   return [chart.fromZero && low === 0 ? 0 : low - room, high + room];
@@ -71,8 +74,9 @@ function valueRange(chart) {
 function linePath(line, toX, toY) {
   let path = "", pen = "M";
   line.value.forEach((value, i) => {
-    if (!Number.isFinite(value) || line.time[i] < report.timeAxis.first) { pen = "M"; return; }
-    path += `${pen}${toX(line.time[i]).toFixed(1)} ${toY(value).toFixed(1)}`;
+    const y = toY(value);
+    if (!Number.isFinite(y) || y > CHART.height || line.time[i] < report.timeAxis.first) { pen = "M"; return; }
+    path += `${pen}${toX(line.time[i]).toFixed(1)} ${y.toFixed(1)}`;
     pen = "L";
   });
   return path;
@@ -106,6 +110,10 @@ function drawChart(chart, parent, seek) {
   }
   svgElement("path", { class: "frame", d: `M${CHART.left} ${CHART.top}V${bottom}H${right}`, style: "stroke-width:1" }, svg);
   chart.lines.forEach((line, index) => svgElement("path", { class: `series-${index}`, d: linePath(line, toX, toY) }, svg));
+  if (!chart.lines.some((line) => line.value.some(Number.isFinite))) {
+    svgElement("text", { x: (CHART.left + right) / 2, y: (CHART.top + bottom) / 2, "text-anchor": "middle" }, svg).textContent =
+      "none in either run";
+  }
   const cursor = svgElement("line", { class: "cursor", y1: CHART.top, y2: bottom }, svg);
 
   const seekHere = (event) => {

@@ -21,25 +21,19 @@ REQUIRED_COLUMNS = (
     "wall_s",
 )
 
-#: Column name suffix -> unit, longest suffix first.
-UNIT_OF_SUFFIX = {
-    "_pN_nm": "pN nm",
-    "_pN_per_nm": "pN/nm",
-    "_nm_per_us": "nm/µs",
-    "_per_nm": "1/nm",
-    "_per_us": "1/µs",
-    "_nm3": "nm³",
-    "_nm2": "nm²",
-    "_nm": "nm",
-    "_us": "µs",
-    "_pN": "pN",
-    "_s": "s",
-}
+#: Words at the end of a column's name that spell its unit; `per` starts the denominator.
+UNIT_WORDS = {"nm": "nm", "nm2": "nm²", "nm3": "nm³", "us": "µs", "s": "s", "pN": "pN"}
 
 
 def unit_of(column):
-    """Unit of a history column as text, from its name; "1" for a number without unit."""
-    return next((unit for suffix, unit in UNIT_OF_SUFFIX.items() if column.endswith(suffix)), "1")
+    """Unit of a history column as text, from its name: "x_pN_nm_per_us" is in "pN nm/µs"; "1" for a number without unit."""
+    words = column.split("_")[1:]
+    start = len(words)
+    while start > 0 and (words[start - 1] in UNIT_WORDS or words[start - 1] == "per"):
+        start -= 1
+    above, _, below = " ".join(words[start:]).partition("per")
+    above, below = (" ".join(UNIT_WORDS[word] for word in part.split()) for part in (above, below))
+    return f"{above or '1'}/{below}" if below else above or "1"
 
 
 def read_history(path):

@@ -12,6 +12,7 @@ import numpy as np
 import endoflow
 import synthetic
 from endoflow.curves import area_from_axis, equivalent_radius, local_cubic, resample
+from endoflow.history import unit_of
 from endoflow.shapes import Shape, between
 
 
@@ -73,15 +74,26 @@ class LoadedRun(unittest.TestCase):
         self.assertTrue(np.isnan(self.run_.history_at("neck_radius_nm", 0.0)))
 
     def test_units_come_from_the_column_names(self):
-        units = self.run_.history_units
         expected = {
             "time_us": "µs",
             "neck_radius_nm": "nm",
             "membrane_area_nm2": "nm²",
             "volume_extracellular_nm3": "nm³",
+            "bending_energy_pN_nm": "pN nm",
+            "area_strain_max": "1",
+            "wall_s": "s",
         }
-        expected.update({"bending_energy_pN_nm": "pN nm", "area_strain_max": "1", "wall_s": "s"})
+        units = self.run_.history_units
         self.assertEqual({name: units[name] for name in expected}, expected)
+
+    def test_units_of_columns_an_engine_adds(self):
+        expected = {
+            "dissipation_pN_nm_per_us": "pN nm/µs",
+            "curvature_max_per_nm": "1/nm",
+            "tension_pN_per_nm": "pN/nm",
+            "nm": "1",
+        }
+        self.assertEqual({name: unit_of(name) for name in expected}, expected)
 
     def test_shape_at_an_output_time_is_that_shape(self):
         self.assertIs(self.run_.shape_at(0.3), self.run_.shapes[3])
