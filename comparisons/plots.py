@@ -51,10 +51,11 @@ def covers_paper_times(metrics):
 
 
 def panel_times(metrics):
-    """PANELS evenly chosen times (µs) up to a little after budding, or up to the end of both runs when that is earlier."""
+    """At most PANELS output times (µs), evenly chosen up to a little after budding or, if earlier, to the end of both runs."""
     first, last = metrics["common_interval_us"]
-    end = min(last, 1.2 * (last_budding(metrics) or last))
-    return np.linspace(first, end, PANELS + 1)[1:] if end > first else np.array([last])
+    wanted = np.linspace(first, min(last, 1.2 * (last_budding(metrics) or last)), PANELS + 1)[1:]
+    output_times = np.array([record["time_us"] for record in metrics["times"]])
+    return output_times[np.unique(np.argmin(np.abs(output_times[:, None] - wanted), axis=0))]
 
 
 def vertical_range(shapes, margin):
@@ -153,7 +154,7 @@ def _name_halves(figure, labels, colours):
 
 def _name_lines(figure, labels, colours):
     """Say which line is which run."""
-    handles = [plt.Line2D([], [], color=c, linestyle=d) for c, d in zip(colours, style.LINE_STYLES)]
+    handles = [plt.Line2D([], [], color=colour, **line) for colour, line in zip(colours, style.LINES)]
     _legend_on_top(figure, handles, labels)
 
 
@@ -164,9 +165,9 @@ def outlines(a, b, times, labels, colours):
     height = 1.1 + 8.6 / len(times) * (z_range[1] - z_range[0]) / pairs[0][0].r[-1]
     figure, grid = plt.subplots(1, len(times), figsize=(9.4, height), sharey=True, squeeze=False, layout="constrained")
     for axes, time, pair in zip(grid[0], times, pairs):
-        for shape, colour, dashes in zip(pair, colours, style.LINE_STYLES):
+        for shape, colour, line in zip(pair, colours, style.LINES):
             r, z = resample(shape.r, shape.z, DRAWN_SPACING)
-            axes.plot(r, z, color=colour, linestyle=dashes)
+            axes.plot(r, z, color=colour, **line)
         axes.set(aspect="equal", xlim=(0, pair[0].r[-1]), ylim=z_range, xlabel="r (nm)")
         axes.set_title(f"t = {time:.4g} µs")
     grid[0, 0].set_ylabel("z (nm)")
@@ -179,8 +180,8 @@ def histories(a, b, labels, colours, time_range):
     figure, grid = plt.subplots(2, 4, figsize=(12.4, 5.2), layout="constrained")
     for axes, (column, shown) in zip(grid.flat, style.HISTORY_PLOTS.items()):
         values = [run.history[column] * shown.factor for run in (a, b)]
-        for run, value, colour, dashes in zip((a, b), values, colours, style.LINE_STYLES):
-            axes.plot(run.history["time_us"], value, color=colour, linestyle=dashes)
+        for run, value, colour, line in zip((a, b), values, colours, style.LINES):
+            axes.plot(run.history["time_us"], value, color=colour, **line)
             _mark_budding(axes, run, colour)
         _set_time_axis(axes, time_range)
         _set_value_axis(axes, np.concatenate(values), shown.logarithmic)
@@ -227,7 +228,7 @@ def _set_value_axis(axes, values, wants_log):
         axes.set_yticks([])
     elif wants_log and found.min() > 0 and found.max() > 10 * found.min():
         axes.set_yscale("log")
-        axes.set_ylim(bottom=max(axes.get_ylim()[0], SMALLEST_SHOWN * found.max()))
+        axes.set_ylim(bottom=max(0.8 * found.min(), SMALLEST_SHOWN * found.max()))
         if found.max() < 1000 * found.min():
             axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
             axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
@@ -245,11 +246,11 @@ def distances(metrics):
     )
     for key, name, colour, dashes in curves:
         left.plot(time, [record[key] for record in records], color=colour, linestyle=dashes, label=name)
-    positive = [record[key] for record in records for key, *_ in curves if record[key] > 0]
-    if positive and max(positive) > 20 * min(positive):
-        left.set_yscale("log")
-    else:
-        left.set_ylim(0, 1.15 * max(positive, default=1.0))
+    values = np.array([record[key] for record in records for key, *_ in curves])
+    if values.any():
+        _set_value_axis(left, values[values > SMALLEST_SHOWN * values.max()], wants_log=True)
+    if left.get_yscale() == "linear":
+        left.set_ylim(0, 1.15 * values.max() or 1.0)
     left.set(xlabel="time (µs)", ylabel="distance (nm)")
     left.set_title("Distance between the membranes")
     left.legend()

@@ -156,10 +156,10 @@ def quantity(value, digits, unit):
 
 def legend(labels):
     """Line samples of both runs."""
-    dashes = ("", ' stroke-dasharray="7 4"')
+    dashes = (' stroke-width="4"', ' stroke-width="2" stroke-dasharray="6 4"')
     return "".join(
         f'<span class="key"><svg width="34" height="10" aria-hidden="true"><line x1="1" x2="33" y1="5" y2="5" '
-        f'stroke="var(--run-{key})" stroke-width="3"{dash}/></svg>{escaped(label)}</span>'
+        f'stroke="var(--run-{key})"{dash}/></svg>{escaped(label)}</span>'
         for key, label, dash in zip("ab", labels, dashes)
     )
 

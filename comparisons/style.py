@@ -10,8 +10,8 @@ ENGINE_COLOURS = {"boundary-integral": ("#0072B2", "#4DB2EC"), "phase-field": ("
 SECOND_RUN_COLOUR = ("#00805E", "#2CC79B")
 ENGINE_NAMES = {"boundary-integral": "boundary integral", "phase-field": "phase field"}
 
-#: Line styles of run A and run B, so that the runs stay apart without colour.
-LINE_STYLES = ("-", (0, (5, 2)))
+#: Lines of run A and run B: a thin dashed line on a thick one, so that both show where they coincide, and without colour.
+LINES = ({"linestyle": "-", "linewidth": 2.8}, {"linestyle": (0, (4, 2)), "linewidth": 1.6})
 
 #: Concentration c from 0 (bare membrane) to 1 (coated), on light and on dark ground. Lightness is monotone in c.
 CONCENTRATION_STOPS = ("#A9B4C0", "#A678B4", "#8E1068")
