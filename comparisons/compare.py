@@ -67,6 +67,7 @@ def main(arguments):
     """Run the command; returns its exit code."""
     options = parsed(arguments)
     try:
+        import plots  # noqa: F401  (everything that needs matplotlib)
         from endoflow import EndoflowError
         from metrics import NoCommonTimeError
     except ImportError as error:

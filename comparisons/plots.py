@@ -10,7 +10,7 @@ from matplotlib.collections import LineCollection  # noqa: E402
 from matplotlib.ticker import LogLocator, NullFormatter  # noqa: E402
 
 from endoflow.curves import resample  # noqa: E402
-from metrics import last_budding  # noqa: E402
+from metrics import concentration_profile, last_budding  # noqa: E402
 from time_axis import time_axis  # noqa: E402
 
 #: Panels of the picture of both membranes, and spacing (nm) of the drawn curve.
@@ -31,6 +31,7 @@ def write_all(a, b, metrics, labels, directory):
     figures = {
         "membranes": ("Both membranes, coloured by molecule concentration c", membranes(a, b, times, labels, colours)),
         "outlines": ("Outlines on top of each other", outlines(a, b, times, labels, colours)),
+        "concentration": ("Concentration against membrane area", concentration(a, b, times, labels, colours)),
         "histories": ("Histories", histories(a, b, labels, colours, time_axis(metrics))),
         "distances": ("Distance between the membranes", distances(metrics)),
     }
@@ -171,6 +172,21 @@ def outlines(a, b, times, labels, colours):
         axes.set(aspect="equal", xlim=(0, pair[0].r[-1]), ylim=z_range, xlabel="r (nm)")
         axes.set_title(f"t = {time:.4g} µs")
     grid[0, 0].set_ylabel("z (nm)")
+    _name_lines(figure, labels, colours)
+    return figure
+
+
+def concentration(a, b, times, labels, colours):
+    """c against the membrane area between axis and point, which stays with the material, one panel for each time (µs)."""
+    figure, grid = plt.subplots(1, len(times), figsize=(9.4, 2.9), sharey=True, squeeze=False, layout="constrained")
+    for axes, time in zip(grid[0], times):
+        for run, colour, line in zip((a, b), colours, style.LINES):
+            area, c = concentration_profile(run.shape_at(time))
+            axes.plot(1e-3 * area, c, color=colour, **line)
+            axes.set_xlim(0, 2e-3 * max(np.trapz(c, area), 0.1 * area[-1]))
+        axes.set(ylim=(-0.05, 1.1), xlabel="area from the axis (10³ nm²)")
+        axes.set_title(f"t = {time:.4g} µs")
+    grid[0, 0].set_ylabel("concentration c")
     _name_lines(figure, labels, colours)
     return figure
 

@@ -221,12 +221,12 @@ def plot(path, title):
 
 
 def parameters_table(a, b, labels):
-    """All parameters of both runs; those that differ are marked unless they belong to an engine alone."""
+    """All parameters of both runs; those that differ are marked, an engine's own only between runs of one engine."""
     flat_a, flat_b = flat_parameters(a.parameters), flat_parameters(b.parameters)
     rows = []
     for key in dict.fromkeys([*flat_a, *flat_b]):
         values = flat_a.get(key), flat_b.get(key)
-        differs = values[0] != values[1] and key.split(".")[0] not in ENGINE_SECTIONS
+        differs = values[0] != values[1] and (a.engine == b.engine or key.split(".")[0] not in ENGINE_SECTIONS)
         rows.append(
             ("differs" if differs else "", [f"<code>{escaped(key)}</code>", *(setting(value) for value in values)])
         )
