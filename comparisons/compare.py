@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """`endoflow compare DIR_A DIR_B [-o DIR]`: metrics.json, plots and report.html from two finished runs.
 
-Exit codes: 0 done; 2 bad command line; 4 a run directory cannot be read or the output cannot be written; 130 interrupted.
+Exit codes: 0 done; 2 bad command line; 4 a run cannot be read or the output cannot be written; 130 interrupted.
 """
 
 import argparse
@@ -54,11 +54,13 @@ def write_comparison(a, b, output):
 def summary_lines(metrics, output):
     """What the terminal shows at the end, as a list of lines."""
     found, budding = metrics["summary"], metrics["budding"]
+    labels = [metrics["runs"][key]["label"] for key in "ab"]
+    worst = found["max_hausdorff_distance_time_us"]
     times = ["none" if budding[key] is None else f"{budding[key]:.5g} µs" for key in ("a_us", "b_us")]
     return [
-        f"budding time         {times[0]} ({metrics['runs']['a']['label']}), {times[1]} ({metrics['runs']['b']['label']})",
+        f"budding time         {times[0]} ({labels[0]}), {times[1]} ({labels[1]})",
         f"mean distance        {found['time_mean_of_mean_distance_nm']:.3g} nm",
-        f"Hausdorff distance   at most {found['max_hausdorff_distance_nm']:.3g} nm, at {found['max_hausdorff_distance_time_us']:.4g} µs",
+        f"Hausdorff distance   at most {found['max_hausdorff_distance_nm']:.3g} nm, at {worst:.4g} µs",
         f"report               {output / 'report.html'}",
     ]
 

@@ -7,7 +7,7 @@ from scipy.spatial import cKDTree
 
 from endoflow.curves import resample
 
-#: Spacing (nm) of the sample points. A curve of radius 5 nm lies within spacing²/(8·5 nm) = 6e-5 nm of its samples' chords.
+#: Spacing (nm) of the sample points: a curve of radius 5 nm lies within spacing²/(8·5 nm) = 6e-5 nm of the chords.
 SPACING = 0.05
 
 #: Nearest vertices whose two adjacent segments are searched for the nearest segment.
@@ -31,7 +31,7 @@ def curve_distance(first, second):
 
 
 def distance_to_polyline(points, vertices):
-    """Distance (m,) of each point (m, 2) to the polyline through vertices (n, 2), n >= 2: to its segments, not only its vertices.
+    """Distance (m,) of each point (m, 2) to the segments of the polyline through vertices (n, 2), n >= 2.
 
     Searches the segments next to the nearest vertices, which is exact when the vertices are dense and evenly spaced.
     """

@@ -74,7 +74,7 @@ def compare_runs(a, b, labels):
 
 
 def common_times(a, b):
-    """Union (n,) in µs of both runs' output times within the interval both cover; times equal to round-off are merged."""
+    """Union (n,) in µs of both runs' output times within the interval both cover, merged when equal to round-off."""
     first, last = max(a.shape_times[0], b.shape_times[0]), min(a.shape_times[-1], b.shape_times[-1])
     tolerance = 1e-9 * max(1.0, abs(last))
     union = np.unique(np.concatenate((a.shape_times, b.shape_times)))

@@ -25,7 +25,7 @@ SMALLEST_SHOWN = 1e-5
 
 
 def write_all(a, b, metrics, labels, directory):
-    """Write every plot of endoflow.Run objects a, b and their metrics (dict) into directory (Path); returns {name: title}."""
+    """Write every plot of endoflow.Run objects a, b and their metrics into directory (Path); returns {name: title}."""
     colours = [light for light, _ in style.colours(a, b)]
     times = panel_times(metrics)
     figures = {
@@ -83,7 +83,7 @@ def draw_half(axes, shape, side, z_range, rim, line_width):
 
 
 def pieces_of_equal_level(points, c):
-    """Split a curve, points (n, 2) with concentrations c (n,), into polylines of one colour level; neighbours share a point.
+    """Split a curve, points (n, 2) with concentrations c (n,), into polylines of one colour level that share end points.
 
     Returns the list of polylines and the array of their concentrations.
     """
@@ -94,7 +94,7 @@ def pieces_of_equal_level(points, c):
 
 
 def draw_pair(axes, shapes, colours, z_range, rim, line_width=3.0):
-    """Run A's membrane on the left half-plane, run B's on the right, out to r = rim (nm); returns the lines for a colour bar."""
+    """Run A's membrane on the left half-plane, run B's on the right, out to r = rim (nm); returns coloured lines."""
     for shape, side in zip(shapes, (-1, 1)):
         lines = draw_half(axes, shape, side, z_range, rim, line_width)
     axes.axvline(0.0, color="#666666", linewidth=0.8, linestyle=(0, (6, 3, 1, 3)), zorder=2)
@@ -192,7 +192,7 @@ def concentration(a, b, times, labels, colours):
 
 
 def histories(a, b, labels, colours, time_range):
-    """Every quantity of style.HISTORY_PLOTS against time, both runs overlaid, budding marked; time_range as of time_axis()."""
+    """Every quantity of style.HISTORY_PLOTS of both runs against time, budding marked; time_range as of time_axis()."""
     figure, grid = plt.subplots(2, 4, figsize=(12.4, 5.2), layout="constrained")
     for axes, (column, shown) in zip(grid.flat, style.HISTORY_PLOTS.items()):
         values = [run.history[column] * shown.factor for run in (a, b)]

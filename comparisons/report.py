@@ -30,7 +30,7 @@ TIME_COLUMNS = (
 
 
 def report_html(a, b, metrics, plots, directory):
-    """The report's text, for two endoflow.Run objects, their metrics, and the plots {name: title} already in directory (Path)."""
+    """The report's text for two endoflow.Run objects, their metrics, and the plots {name: title} in directory (Path)."""
     labels = [metrics["runs"][key]["label"] for key in "ab"]
     data = json.dumps(report_data(a, b, metrics), allow_nan=False, separators=(",", ":"))
     return filled(
@@ -45,7 +45,7 @@ def report_html(a, b, metrics, plots, directory):
         cards=cards(metrics),
         sides="".join(f'<span class="ink-{key}">{escaped(label)}</span>' for key, label in zip("ab", labels)),
         canvas_label=escaped(
-            f"Both membranes at the time shown: {labels[0]} on the left, {labels[1]} on the right, coloured by concentration"
+            f"Both membranes at the time shown: {labels[0]} left, {labels[1]} right, coloured by concentration"
         ),
         readout_heads="".join(
             f'<th scope="col" class="ink-{key}">{escaped(label)}</th>' for key, label in zip("ab", labels)
@@ -76,7 +76,7 @@ def escaped(text):
 
 
 def setting(value, digits=9):
-    """A parameter or record entry: a number with at most that many significant digits, a dash for None, other values as they are."""
+    """A parameter or record entry: a number with at most that many digits, a dash for None, other values as they are."""
     if value is None:
         return "–"
     if isinstance(value, bool) or not isinstance(value, (int, float)):
@@ -173,7 +173,10 @@ def table(heads, rows, kind=""):
         + "</tr>"
         for row_class, cells in rows
     )
-    return f'<div class="table {kind}" tabindex="0" role="region" aria-label="table"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
+    return (
+        f'<div class="table {kind}" tabindex="0" role="region" aria-label="table">'
+        f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>"
+    )
 
 
 def metrics_table(metrics, labels):

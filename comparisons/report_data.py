@@ -46,7 +46,7 @@ def packed(values):
 
 
 def frame_times(metrics):
-    """Times (µs) of the frames: half of them before budding if that is early, moved to the nearest output time where one is near."""
+    """Times (µs) of the frames: half of them before budding if that is early; output times where they are near."""
     first, last = metrics["common_interval_us"]
     if last <= first:
         return np.array([last])

@@ -2,7 +2,7 @@
 
 from metrics import last_budding
 
-#: The axis becomes logarithmic when runs go on this many times longer than budding; it then starts at this fraction of it.
+#: The axis becomes logarithmic when runs go on this many times longer than budding; it then starts at this fraction.
 LOG_FROM, LOG_START = 4, 1e-3
 
 

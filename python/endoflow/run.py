@@ -48,7 +48,7 @@ class Run:
         return None if event is None else float(event["time_us"])
 
     def history_at(self, column, time):
-        """A history column interpolated linearly at `time` (µs; number or array); nan outside the run and next to empty cells."""
+        """A history column interpolated linearly at `time` (µs; number or array); nan outside the run and beside gaps."""
         return np.interp(time, self.history["time_us"], self.history[column], left=np.nan, right=np.nan)
 
     def shape_at(self, time):
