@@ -8,8 +8,10 @@ metrics.json (schema_version 1); every key ends in its unit, null stands for "do
     case_differences      [{key, a, b}]: parameters that differ, the engines' own sections left out
     warnings              [text]
     budding               {a_us, b_us, difference_us, relative_difference}
-    summary               {max_hausdorff_distance_nm, max_hausdorff_distance_time_us, time_mean_of_mean_distance_nm,
-                           final_mean_distance_nm, final_hausdorff_distance_nm, max_relative_difference: {quantity: number}}
+    summary               over the times both runs wrote shapes at, or all times when there are fewer than two of those:
+                          {includes_interpolated_shapes, max_hausdorff_distance_nm, max_hausdorff_distance_time_us,
+                           time_mean_of_mean_distance_nm, final_mean_distance_nm, final_hausdorff_distance_nm,
+                           max_relative_difference: {quantity: number}}
     times                 one record per output time of either run within the common interval:
         time_us
         interpolated              runs ("a", "b") whose shape was interpolated between two output times
@@ -164,13 +166,16 @@ def last_budding(metrics):
 
 
 def summary(records):
-    """The summary entry of metrics.json."""
+    """The summary entry of metrics.json: over the records without interpolation if there are two or more, else over all."""
+    written = [record for record in records if not record["interpolated"]]
+    records, interpolated = (written, False) if len(written) > 1 else (records, len(written) < len(records))
     times = np.array([record["time_us"] for record in records])
     mean = np.array([record["mean_distance_nm"] for record in records])
     hausdorff = np.array([record["hausdorff_distance_nm"] for record in records])
     worst = int(np.argmax(hausdorff))
     span = times[-1] - times[0]
     return {
+        "includes_interpolated_shapes": interpolated,
         "max_hausdorff_distance_nm": float(hausdorff[worst]),
         "max_hausdorff_distance_time_us": float(times[worst]),
         "time_mean_of_mean_distance_nm": float(np.trapz(mean, times) / span) if span > 0 else float(mean[0]),

@@ -135,7 +135,8 @@ def cards(metrics):
         if budding["difference_us"] is not None
         else "not in both runs"
     )
-    worst = f"at {setting(found['max_hausdorff_distance_time_us'], 4)} µs"
+    how = ", interpolated shapes" if found["includes_interpolated_shapes"] else ""
+    worst = f"at {setting(found['max_hausdorff_distance_time_us'], 4)} µs{how}"
     entries = [
         (f"Budding, {labels[0]}", quantity(budding["a_us"], 4, "µs"), "neck radius below 5 nm", "ink-a"),
         (f"Budding, {labels[1]}", quantity(budding["b_us"], 4, "µs"), "neck radius below 5 nm", "ink-b"),

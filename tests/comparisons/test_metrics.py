@@ -96,6 +96,15 @@ class DifferentRuns(unittest.TestCase):
         # The runs are equal: what is left is the interpolation in time, at most interval²/8 times the acceleration of the apex.
         self.assertLess(max(r["hausdorff_distance_nm"] for r in records), 4.0)
         self.assertLess(records[1]["hausdorff_distance_nm"], 1e-9)
+        self.assertTrue(compare_runs(a, b, LABELS)["summary"]["includes_interpolated_shapes"])
+
+    def test_summary_leaves_interpolation_out_where_it_can(self):
+        a = self.run_with("a", [0.0, 0.3, 0.6])
+        b = self.run_with("b", [0.0, 0.15, 0.3, 0.6])
+        metrics = compare_runs(a, b, LABELS)
+        self.assertGreater(max(r["hausdorff_distance_nm"] for r in metrics["times"]), 0.1)
+        self.assertEqual(metrics["summary"]["max_hausdorff_distance_nm"], 0)
+        self.assertFalse(metrics["summary"]["includes_interpolated_shapes"])
 
     def test_no_common_time(self):
         a, b = self.run_with("a", [0.0, 0.2]), self.run_with("b", [0.5, 0.9])
