@@ -61,16 +61,17 @@ ContourPoint CellContour::point(double x, double y) const {
 
 ContourPoint CellContour::root(const Edge& e) const {
     const auto along = [&](double t) { return phi_at(e.x0 + t * (e.x1 - e.x0), e.y0 + t * (e.y1 - e.y0)); };
-    double low = 0, high = 1, f_low = along(0), f_high = along(1), t = 0.5;
-    for (int iteration = 0; iteration < 60 && high - low > 1e-14; ++iteration) {
-        const double secant = low - f_low * (high - low) / (f_high - f_low);
-        t = iteration % 3 == 2 || !(secant > low && secant < high) ? 0.5 * (low + high) : secant;
-        const double f = along(t);
-        if (f == 0) break;
-        ((f > 0) == (f_low > 0) ? low : high) = t;
-        ((f > 0) == (f_low > 0) ? f_low : f_high) = f;
-        if (std::abs(f) < 1e-15) break;
-    }
+    double low = 0, high = 1, f_low = along(0), f_high = along(1), t = std::abs(f_low) < std::abs(f_high) ? 0 : 1;
+    if (std::min(std::abs(f_low), std::abs(f_high)) > 1e-15)
+        for (int iteration = 0; iteration < 60 && high - low > 1e-14; ++iteration) {
+            const double secant = low - f_low * (high - low) / (f_high - f_low);
+            t = iteration % 3 == 2 || !(secant > low && secant < high) ? 0.5 * (low + high) : secant;
+            const double f = along(t);
+            const bool same_side = (f >= 0) == (f_low >= 0);  // zero counts as positive, as at the corners
+            (same_side ? low : high) = t;
+            (same_side ? f_low : f_high) = f;
+            if (std::abs(f) < 1e-15) break;
+        }
     return point(e.x0 + t * (e.x1 - e.x0), e.y0 + t * (e.y1 - e.y0));
 }
 

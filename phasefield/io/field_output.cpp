@@ -45,11 +45,10 @@ void write_fields(const std::filesystem::path& run_directory, std::vector<double
     meaning[u_r] = meaning[u_z] = dealii::DataComponentInterpretation::component_is_part_of_vector;
     dealii::DataOut<2> data;
     data.add_data_vector(spaces.flow.dofs, state.flow,
-                         std::vector<std::string>{"velocity", "velocity", "pressure", "lambda", "phi",
-                                                  "membrane_force", "bending_moment"},
+                         std::vector<std::string>{"velocity", "velocity", "pressure", "lambda", "phi", "membrane_force",
+                                                  "bending_moment"},
                          meaning);
-    data.add_data_vector(spaces.molecules.dofs, state.molecules,
-                         std::vector<std::string>{"c", "chemical_potential"});
+    data.add_data_vector(spaces.molecules.dofs, state.molecules, std::vector<std::string>{"c", "chemical_potential"});
     data.add_data_vector(spaces.stretching.dofs, state.stretching, "stretching");
     data.build_patches(std::max(spaces.flow.degrees[phi], 1u));
     data.write_vtu_in_parallel((run_directory / file_name(times.size())).string(), communicator);

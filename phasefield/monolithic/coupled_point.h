@@ -14,7 +14,7 @@ struct CoupledPoint {
     double r, measure;              // radius [nm]; r dr dz with the quadrature weight [nm³]
     PhaseFieldPoint phi;            // φⁿ
     LayerGeometry layer;            // |∇φⁿ|, n, P
-    double normal_divergence;       // ∇·n [1/nm], needed for the profile relaxation
+    RelaxationWeight relaxation;    // of the profile
     double viscosity;               // ν(φⁿ)
     double velocity_r, velocity_z;  // uⁿ (inertia)
     double moment;                  // (β f)ⁿ

@@ -78,7 +78,7 @@ void OldFields::evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterator&
         p.measure = quadrature_.weight(q) * box.hr * box.hz * p.r;
         p.phi = {phi_.value[q], phi_.r[q], phi_.z[q], phi_.rr[q], phi_.rz[q], phi_.zz[q]};
         p.layer = layer_geometry(phi_.r[q], phi_.z[q], numerics.epsilon);
-        p.normal_divergence = normal_divergence(p.phi, p.r, 1e-4 / numerics.epsilon);
+        p.relaxation = relaxation_weight(p.phi, p.layer, p.r, parameters_.domain.radius, numerics.epsilon);
         p.viscosity = viscosity(p.phi.value, parameters_.fluid, numerics.viscosity_mean);
         p.velocity_r = u_r_.value[q];
         p.velocity_z = u_z_.value[q];
@@ -102,8 +102,9 @@ Couplings flow_couplings(const Parameters& p) {
         for (const unsigned int other : {pressure, tension, force}) couple(velocity, other);
     couple(phi, force);
     couple(phi, moment);
-    if (p.phase_field.advection_centering > 0)
-        for (const unsigned int velocity : {u_r, u_z}) table(velocity, phi) = dealii::DoFTools::always;
+    if (p.phase_field.force_centering > 0)
+        for (const unsigned int velocity : {u_r, u_z})
+            table(velocity, phi) = table(velocity, moment) = dealii::DoFTools::always;
     return table;
 }
 

@@ -68,15 +68,6 @@ void add_tension_extension(const CoupledPoints& points, const StepCoefficients& 
     local.residual(tension, Op::value, relaxation);
 }
 
-/// (32): −a( β'(c) f²/(2ε) − (β f/ε) ∂F/∂c ) ∇c at time level n.
-void add_concentration_force(const CoupledPoints& points, double epsilon, LocalSystem& local) {
-    const auto factor = [epsilon](const auto& p) {
-        return -p.measure * concentration_force(p.phi.value, p.moment, p.bending, epsilon);
-    };
-    local.residual(u_r, Op::value, at_points(points, [&](const auto& p) { return factor(p) * p.c_r; }));
-    local.residual(u_z, Op::value, at_points(points, [&](const auto& p) { return factor(p) * p.c_z; }));
-}
-
 /// (32): ρ ( (u − uⁿ)/τ + uⁿ·∇u ). Both fluids have the same density.
 void add_inertia(const CoupledPoints& points, const StepCoefficients& step, LocalSystem& local) {
     const double rho = step.fluid.density;
@@ -101,7 +92,6 @@ void add_flow_terms(const CoupledPoints& points, const StepCoefficients& step, L
     add_incompressibility(points, local);
     add_inextensibility(points, local);
     add_tension_extension(points, step, local);
-    add_concentration_force(points, step.numerics.epsilon, local);
     if (step.fluid.inertia) add_inertia(points, step, local);
 }
 

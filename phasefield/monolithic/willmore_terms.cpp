@@ -11,37 +11,72 @@ Coefficients at_points(const CoupledPoints& points, const Function& coefficient)
     return out;
 }
 
-/// The mixture of old and new φ that u and g meet: φ_α = (1 − α) φⁿ + α φ. α = 0 as printed; α = ½ is second order and
-/// adds no anti-diffusion to the profile.
+/// The mixture of old and new: ∇φ_w = (1 − w) ∇φⁿ + w ∇φ.
 struct MixedGradient {
     Coefficients r, z;
 };
 
-MixedGradient mixed_gradient(const CoupledPoints& points, double alpha, const LocalSystem& local) {
+MixedGradient mixed_gradient(const CoupledPoints& points, double w, const LocalSystem& local) {
     const ScalarField& now = local.field(phi);
-    return {at_points(points, [&](const auto& p, std::size_t q) { return (1 - alpha) * p.phi.r + alpha * now.r[q]; }),
-            at_points(points, [&](const auto& p, std::size_t q) { return (1 - alpha) * p.phi.z + alpha * now.z[q]; })};
+    return {at_points(points, [&](const auto& p, std::size_t q) { return (1 - w) * p.phi.r + w * now.r[q]; }),
+            at_points(points, [&](const auto& p, std::size_t q) { return (1 - w) * p.phi.z + w * now.z[q]; })};
 }
 
-/// (32): the membrane force −∫ g ∇φ·v, and (35) tested with g's functions, −∫ (u·∇φ) ψ: one is the other's transpose.
-void add_advection_and_membrane_force(const CoupledPoints& points, double alpha, LocalSystem& local) {
-    const auto gradient = mixed_gradient(points, alpha, local);
-    const auto& g = local.field(force).value;
+/// (35) tested with g's functions: −∫ (u·∇φ_w) ψ. w = 0 as printed adds anti-diffusion to the profile; w = ½ none.
+void add_advection(const CoupledPoints& points, double w, LocalSystem& local) {
+    const auto gradient = mixed_gradient(points, w, local);
     const auto &ur = local.field(u_r).value, &uz = local.field(u_z).value;
-    const auto r = at_points(points, [&](const auto& p, std::size_t q) { return -p.measure * gradient.r[q]; });
-    const auto z = at_points(points, [&](const auto& p, std::size_t q) { return -p.measure * gradient.z[q]; });
-    local.linear(u_r, Op::value, force, Op::value, r);
-    local.linear(u_z, Op::value, force, Op::value, z);
-    local.linear(force, Op::value, u_r, Op::value, r);
-    local.linear(force, Op::value, u_z, Op::value, z);
-    if (alpha == 0) return;
-    const auto g_weight = at_points(points, [&](const auto& p, std::size_t q) { return -p.measure * alpha * g[q]; });
-    local.jacobian(u_r, Op::value, phi, Op::dr, g_weight);
-    local.jacobian(u_z, Op::value, phi, Op::dz, g_weight);
+    local.linear(force, Op::value, u_r, Op::value,
+                 at_points(points, [&](const auto& p, std::size_t q) { return -p.measure * gradient.r[q]; }));
+    local.linear(force, Op::value, u_z, Op::value,
+                 at_points(points, [&](const auto& p, std::size_t q) { return -p.measure * gradient.z[q]; }));
+    if (w == 0) return;
     local.jacobian(force, Op::value, phi, Op::dr,
-                   at_points(points, [&](const auto& p, std::size_t q) { return -p.measure * alpha * ur[q]; }));
+                   at_points(points, [&](const auto& p, std::size_t q) { return -p.measure * w * ur[q]; }));
     local.jacobian(force, Op::value, phi, Op::dz,
-                   at_points(points, [&](const auto& p, std::size_t q) { return -p.measure * alpha * uz[q]; }));
+                   at_points(points, [&](const auto& p, std::size_t q) { return -p.measure * w * uz[q]; }));
+}
+
+/// (32): the membrane force −∫ g ∇φ_w·v. With w = 1 it and the force on ∇c balance to zero in total, as an energy that
+/// does not depend on the membrane's place demands; with w = 0 (as printed) the rest, of the order of the step, drives
+/// the flow.
+void add_membrane_force(const CoupledPoints& points, double w, LocalSystem& local) {
+    const auto gradient = mixed_gradient(points, w, local);
+    const auto& g = local.field(force).value;
+    local.linear(u_r, Op::value, force, Op::value,
+                 at_points(points, [&](const auto& p, std::size_t q) { return -p.measure * gradient.r[q]; }));
+    local.linear(u_z, Op::value, force, Op::value,
+                 at_points(points, [&](const auto& p, std::size_t q) { return -p.measure * gradient.z[q]; }));
+    if (w == 0) return;
+    const auto change = at_points(points, [&](const auto& p, std::size_t q) { return -p.measure * w * g[q]; });
+    local.jacobian(u_r, Op::value, phi, Op::dr, change);
+    local.jacobian(u_z, Op::value, phi, Op::dz, change);
+}
+
+/// (32): the force −∫ e ∇cⁿ·v of (20), e = (1 − w) e(φⁿ, mⁿ) + w e(φ, m).
+void add_concentration_force(const CoupledPoints& points, double w, double epsilon, LocalSystem& local) {
+    const auto& now = local.field(phi).value;
+    const auto& m = local.field(moment).value;
+    Coefficients value(points.size()), by_moment(points.size()), by_phi(points.size());
+    for (std::size_t q = 0; q < points.size(); ++q) {
+        const auto& p = points[q];
+        const auto before = concentration_force(p.phi.value, p.moment, p.bending, epsilon);
+        const auto after = concentration_force(now[q], m[q], p.bending, epsilon);
+        value[q] = -p.measure * ((1 - w) * before.value + w * after.value);
+        by_moment[q] = -p.measure * w * after.moment;
+        by_phi[q] = -p.measure * w * after.phi;
+    }
+    const auto add = [&](unsigned int velocity, const auto& slope) {
+        const auto times = [&](const Coefficients& factor) {
+            return at_points(points, [&](const auto& p, std::size_t q) { return factor[q] * slope(p); });
+        };
+        local.residual(velocity, Op::value, times(value));
+        if (w == 0) return;
+        local.jacobian(velocity, Op::value, moment, Op::value, times(by_moment));
+        local.jacobian(velocity, Op::value, phi, Op::value, times(by_phi));
+    };
+    add(u_r, [](const auto& p) { return p.c_r; });
+    add(u_z, [](const auto& p) { return p.c_z; });
 }
 
 /// (35): −(φ − φⁿ)/τ − γ g.
@@ -54,34 +89,30 @@ void add_phase_field_rate(const CoupledPoints& points, const StepCoefficients& s
                  at_points(points, [&](const auto& p, std::size_t) { return -p.measure * step.numerics.mobility; }));
 }
 
-/// Added to the right of (35): M ( ε ∂_nn φ + φ(1 − φ²)/ε ), weakly −M ε ∫ (n·∇φ)(n·∇ψ + ψ ∇·n) + …, n from time level
-/// n. It restores the equilibrium profile along the normal and, being free of the curvature term, does not move the
-/// interface.
+/// Added to the right of (35): M W ( ε ∂_nn φ + φ(1 − φ²)/ε ), weakly −M ε ∫ (n·∇φ)( W n·∇ψ + ψ ∇·(n W) ) + …, with n
+/// and the weight W from time level n. It restores the equilibrium profile along the normal and, being free of the
+/// curvature term, does not move the interface.
 void add_profile_relaxation(const CoupledPoints& points, const StepCoefficients& step, LocalSystem& local) {
     const double M = step.numerics.profile_mobility, epsilon = step.numerics.epsilon;
-    const auto weight = [&](const auto& p) { return -p.measure * M * epsilon; };
-    local.linear(force, Op::dr, phi, Op::dr, at_points(points, [&](const auto& p, std::size_t) {
-                     return weight(p) * p.layer.normal_r * p.layer.normal_r;
-                 }));
-    const auto mixed =
-        at_points(points, [&](const auto& p, std::size_t) { return weight(p) * p.layer.normal_r * p.layer.normal_z; });
-    local.linear(force, Op::dr, phi, Op::dz, mixed);
-    local.linear(force, Op::dz, phi, Op::dr, mixed);
-    local.linear(force, Op::dz, phi, Op::dz, at_points(points, [&](const auto& p, std::size_t) {
-                     return weight(p) * p.layer.normal_z * p.layer.normal_z;
-                 }));
-    local.linear(force, Op::value, phi, Op::dr, at_points(points, [&](const auto& p, std::size_t) {
-                     return weight(p) * p.normal_divergence * p.layer.normal_r;
-                 }));
-    local.linear(force, Op::value, phi, Op::dz, at_points(points, [&](const auto& p, std::size_t) {
-                     return weight(p) * p.normal_divergence * p.layer.normal_z;
-                 }));
+    const auto diffusion = [&](const auto& p) { return -p.measure * M * epsilon * p.relaxation.value; };
+    const auto drift = [&](const auto& p) { return -p.measure * M * epsilon * p.relaxation.normal_divergence; };
+    const auto reaction = [&](const auto& p) { return p.measure * M / epsilon * p.relaxation.value; };
+    const auto add = [&](Op test_op, Op trial_op, const auto& coefficient) {
+        local.linear(force, test_op, phi, trial_op,
+                     at_points(points, [&](const auto& p, std::size_t) { return coefficient(p); }));
+    };
+    add(Op::dr, Op::dr, [&](const auto& p) { return diffusion(p) * p.layer.normal_r * p.layer.normal_r; });
+    add(Op::dr, Op::dz, [&](const auto& p) { return diffusion(p) * p.layer.normal_r * p.layer.normal_z; });
+    add(Op::dz, Op::dr, [&](const auto& p) { return diffusion(p) * p.layer.normal_z * p.layer.normal_r; });
+    add(Op::dz, Op::dz, [&](const auto& p) { return diffusion(p) * p.layer.normal_z * p.layer.normal_z; });
+    add(Op::value, Op::dr, [&](const auto& p) { return drift(p) * p.layer.normal_r; });
+    add(Op::value, Op::dz, [&](const auto& p) { return drift(p) * p.layer.normal_z; });
     const auto& now = local.field(phi).value;
     local.residual(force, Op::value, at_points(points, [&](const auto& p, std::size_t q) {
-                       return p.measure * M / epsilon * now[q] * (1 - now[q] * now[q]);
+                       return reaction(p) * now[q] * (1 - now[q] * now[q]);
                    }));
     local.jacobian(force, Op::value, phi, Op::value, at_points(points, [&](const auto& p, std::size_t q) {
-                       return p.measure * M / epsilon * (1 - 3 * now[q] * now[q]);
+                       return reaction(p) * (1 - 3 * now[q] * now[q]);
                    }));
 }
 
@@ -127,7 +158,9 @@ void add_moment_definition(const CoupledPoints& points, double epsilon, LocalSys
 
 void add_willmore_terms(const CoupledPoints& points, const StepCoefficients& step, LocalSystem& local) {
     const double epsilon = step.numerics.epsilon;
-    add_advection_and_membrane_force(points, step.numerics.advection_centering, local);
+    add_advection(points, step.numerics.advection_centering, local);
+    add_membrane_force(points, step.numerics.force_centering, local);
+    add_concentration_force(points, step.numerics.force_centering, epsilon, local);
     add_phase_field_rate(points, step, local);
     if (step.numerics.profile_mobility > 0) add_profile_relaxation(points, step, local);
     add_membrane_force_definition(points, epsilon, local);

@@ -44,11 +44,16 @@ inline double energy_density(double moment, double stiffness, double epsilon) {
     return energy_prefactor * moment * moment / (2 * epsilon * stiffness);
 }
 
-/// Factor of ∇c in (20), (32):  a ( β'(c) f²/(2ε) − (β f/ε) ∂F/∂c )  [pN/nm²].
-inline double concentration_force(double phi, double moment, const BendingCoefficients& b, double epsilon) {
-    const double f = moment / b.stiffness;
+/// Factor of ∇c in (20), (32):  e = a ( β'(c) f²/(2ε) − (β f/ε) ∂F/∂c )  [pN/nm²] as a function of φ and m = β f.
+struct ConcentrationForce {
+    double value, moment, phi;  // e, ∂e/∂m, ∂e/∂φ
+};
+
+inline ConcentrationForce concentration_force(double phi, double moment, const BendingCoefficients& b, double epsilon) {
+    const double scale = energy_prefactor / epsilon, softness = b.stiffness_c / (b.stiffness * b.stiffness);
     const double F_c = (phi * phi - 1) * inverse_sqrt2 * b.curvature_c;
-    return energy_prefactor / epsilon * (0.5 * b.stiffness_c * f * f - moment * F_c);
+    return {scale * (0.5 * softness * moment * moment - moment * F_c), scale * (softness * moment - F_c),
+            -scale * moment * 2 * phi * inverse_sqrt2 * b.curvature_c};
 }
 
 /// Equilibrium profile (3) at signed distance d [nm], d > 0 on the extracellular side.

@@ -38,6 +38,24 @@ inline double normal_divergence(const PhaseFieldPoint& phi, double r, double flo
     return (phi.rr + phi.zz + hoop - nHn) / a;
 }
 
+/// Where the profile relaxation acts: weight W = (1 − φ⁴)(1 − exp(−((R − r)/(2ε))²)) and ∇·(n W) [1/nm].
+/// It fades in the tails of the layer, where n means nothing, and at r = R, where φ is given and the relaxation could
+/// only be balanced by a spurious γ g.
+struct RelaxationWeight {
+    double value, normal_divergence;
+};
+
+inline RelaxationWeight relaxation_weight(const PhaseFieldPoint& phi, const LayerGeometry& layer, double r,
+                                          double radius, double epsilon) {
+    const double x = (radius - r) / (2 * epsilon), wall = 1 - std::exp(-x * x);
+    const double wall_r = -x / epsilon * std::exp(-x * x);
+    const double p = std::clamp(phi.value, -1.0, 1.0), tail = 1 - p * p * p * p;
+    const double along_normal = layer.normal_r * phi.r + layer.normal_z * phi.z;
+    const double divergence = normal_divergence(phi, r, 1e-4 / epsilon);
+    const double derivative = -4 * p * p * p * along_normal * wall + tail * layer.normal_r * wall_r;
+    return {tail * wall, tail * wall * divergence + derivative};
+}
+
 /// ν(φ) [pN µs/nm²]: ν₁ at φ = +1 (extracellular), ν₂ at φ = −1.
 inline double viscosity(double phi, const FluidParameters& fluid, ViscosityMean mean) {
     const double weight = 0.5 * (1 + std::clamp(phi, -1.0, 1.0));

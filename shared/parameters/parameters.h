@@ -61,7 +61,8 @@ struct PhaseFieldParameters {
     double stretching_relaxation = 0.05;
     double stretching_diffusivity = 16;
     double profile_mobility = 0;
-    double advection_centering = 0;
+    double advection_centering = 0.5;
+    double force_centering = 1;
     ViscosityMean viscosity_mean = ViscosityMean::arithmetic;
     double cell_size = 1.25;
     int far_refinements = 3;
