@@ -129,7 +129,8 @@ class Run {
     void record(const StiffIntegrator& integrator) {
         const PhaseTimer timer(output_, "observables");
         const MembraneSpace& space = dynamics_.space();
-        const MembraneState state = dynamics_.unpack(integrator.state());
+        const Evaluation accepted = dynamics_.evaluate(integrator.state());
+        const MembraneState& state = accepted.state;
         const ShapeIntegrals shape = shape_integrals(space, state, parameters_.domain);
         check_walls(shape, integrator.time());
         const auto neck = find_neck(space, state);
@@ -147,27 +148,26 @@ class Run {
             2.0 * std::numbers::pi * bending_energy(space, state, dynamics_.model(), Derivatives::first).energy;
         row.molecule_mass_nm2 = shape.mass;
         memory_.strain_bound +=
-            integrator.last_step() * largest_divergence(space, latest_.samples, latest_.flow.velocity);
+            integrator.last_step() * largest_divergence(space, accepted.samples, accepted.flow.velocity);
         row.area_strain_max = memory_.strain_bound;
         row.volume_extracellular_nm3 = shape.extracellular_volume;
-        row.extra = own_columns(integrator, shape);
+        row.extra = own_columns(integrator, accepted, shape);
         output_.record_step(row);
     }
 
-    // The balances belong to the last flow the integrator solved for: the accepted state up to the tolerance of its
-    // Newton iteration.
-    std::vector<double> own_columns(const StiffIntegrator& integrator, const ShapeIntegrals& shape) const {
-        const Eigen::VectorXd walls = dynamics_.box().wall_unknowns(latest_.operators, latest_.flow);
+    std::vector<double> own_columns(const StiffIntegrator& integrator, const Evaluation& accepted,
+                                    const ShapeIntegrals& shape) const {
+        const Eigen::VectorXd walls = dynamics_.box().wall_unknowns(accepted.operators, accepted.flow);
         const FlowBalances flow =
-            flow_balances(dynamics_.space(), dynamics_.box(), latest_.samples, latest_.flow, walls);
-        const EnergyBalance energy = energy_balance(dynamics_, latest_);
+            flow_balances(dynamics_.space(), dynamics_.box(), accepted.samples, accepted.flow, walls);
+        const EnergyBalance energy = energy_balance(dynamics_, accepted);
         return {energy.dissipated_power,
                 energy.energy_rate,
                 energy.residual(),
                 flow.force,
                 flow.net_flux,
                 flow.area,
-                latest_.flow.inflow,
+                accepted.flow.inflow,
                 shape.wall_distance,
                 static_cast<double>(integrator.statistics().order)};
     }

@@ -81,8 +81,7 @@ double largest_divergence(const MembraneSpace& space, const MembraneSamples& sam
 }
 
 double EnergyBalance::residual() const {
-    return std::abs(energy_rate + dissipated_power - diffusive_power - inflow_power) /
-           (std::abs(dissipated_power) + 1e-300);
+    return std::abs(energy_rate + dissipated_power - diffusive_power) / (std::abs(dissipated_power) + 1e-300);
 }
 
 EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& e) {
@@ -108,10 +107,8 @@ EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation&
     const LuFactors mass(surface_mass_matrix(space, e.samples.curve), "concentration mass");
     const Eigen::VectorXd c_rate = mass.solve(right);
     const Eigen::VectorXd c_carried = mass.solve(advected);
-    const double rim_density = energy_density_at_rim(space, e.state, dynamics.model());
     balance.energy_rate = two_pi * (e.energy.gradient.dot(e.mesh_velocity) + e.energy.gradient_c.dot(c_rate));
     balance.diffusive_power = two_pi * e.energy.gradient_c.dot(c_rate - c_carried);
-    balance.inflow_power = -two_pi * e.samples.rim_radius * rim_density * e.flow.inflow;
     const Eigen::VectorXd f_r = e.flow.force.head(space.radial_count());
     const Eigen::VectorXd f_z = e.flow.force.tail(space.force().dimension());
     for (std::size_t i = 0; i < space.xi.size(); ++i) {

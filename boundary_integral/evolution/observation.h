@@ -38,7 +38,6 @@ struct EnergyBalance {
     double energy_rate;       // dE/dt, pN nm/us
     double dissipated_power;  // int f.u dA, pN nm/us
     double diffusive_power;   // dE/dt by diffusion of c, pN nm/us
-    double inflow_power;      // pN nm/us
     double residual() const;  // relative
 };
 EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& evaluation);

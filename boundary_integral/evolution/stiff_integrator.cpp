@@ -120,6 +120,13 @@ StiffIntegrator::StiffIntegrator(StiffProblem problem, double time, const Eigen:
     me.check(CVodeSetMinStep(me.cvode, limits.smallest), "CVodeSetMinStep");
     me.check(CVodeSetMaxErrTestFails(me.cvode, 20), "CVodeSetMaxErrTestFails");
     me.check(CVodeSetMaxConvFails(me.cvode, 40), "CVodeSetMaxConvFails");
+    // A rate costs several Jacobians here, and the Jacobian is approximate: iterate tightly with fresh matrices. Left
+    // at their defaults the iteration errors feed the error estimate and keep the order at 2 (measured: 30 % more
+    // rates).
+    me.check(CVodeSetNonlinConvCoef(me.cvode, 0.01), "CVodeSetNonlinConvCoef");
+    me.check(CVodeSetMaxNonlinIters(me.cvode, 5), "CVodeSetMaxNonlinIters");
+    me.check(CVodeSetLSetupFrequency(me.cvode, 5), "CVodeSetLSetupFrequency");
+    me.check(CVodeSetJacEvalFrequency(me.cvode, 5), "CVodeSetJacEvalFrequency");
 }
 
 StiffIntegrator::~StiffIntegrator() = default;

@@ -8,8 +8,10 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
-constexpr int singular_points = 24;
-constexpr int near_points = 20;
+// The wall-wall block is built once and decides the balance of forces (1e-13): it gets the finer rule. Targets on the
+// moving membrane see the walls through the coarser one.
+constexpr int wall_points = 40;
+constexpr int membrane_points = 32;
 constexpr double near_distance = 1.2;  // in panel lengths
 
 std::size_t at(Index i) {
@@ -26,7 +28,7 @@ struct PanelPoint {
 class Builder {
   public:
     Builder(const WallPanels& walls, Index rows)
-        : walls_(walls), singular_rule_(gauss_legendre(singular_points)), near_rule_(gauss_legendre(near_points)) {
+        : walls_(walls), wall_rule_(gauss_legendre(wall_points)), membrane_rule_(gauss_legendre(membrane_points)) {
         matrix_ = RowMatrix::Zero(rows, walls.unknowns());
     }
 
@@ -38,7 +40,7 @@ class Builder {
 
   private:
     const WallPanels& walls_;
-    QuadratureRule singular_rule_, near_rule_;
+    QuadratureRule wall_rule_, membrane_rule_;
     RowMatrix matrix_;
     RingSources sources_;
     RingKernels kernels_;
@@ -49,7 +51,7 @@ class Builder {
         const bool own = target.node >= panel.first_node && target.node < panel.first_node + static_cast<Index>(count);
         if (own) {
             const double tau = walls_.nodes()[at(target.node)].tau;
-            add_points(target, panel, logarithmic_rule(panel.tau_begin, panel.tau_end, tau, singular_rule_));
+            add_points(target, panel, logarithmic_rule(panel.tau_begin, panel.tau_end, tau, wall_rule_));
             return;
         }
         // Closest point of the straight panel, through the fraction of the segment.
@@ -75,7 +77,9 @@ class Builder {
         const double speed = length * segment.fraction_rate(tau);
         const double curvature = length * std::acos(-1.0) * std::acos(-1.0) * 0.25;
         const double width = 1.0 / (speed / distance + std::sqrt(curvature / distance));
-        add_points(target, panel, near_singular_rule(panel.tau_begin, panel.tau_end, tau, width, near_rule_));
+        add_points(target, panel,
+                   near_singular_rule(panel.tau_begin, panel.tau_end, tau, width,
+                                      target.node >= 0 ? wall_rule_ : membrane_rule_));
     }
 
     // Differences source - target on straight segments; the normal offset is constant, exactly zero on the target's own

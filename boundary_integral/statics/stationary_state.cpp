@@ -1,0 +1,173 @@
+#include "boundary_integral/statics/stationary_state.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "boundary_integral/statics/sampled_curve.h"
+
+namespace endoflow::statics {
+
+namespace {
+
+ParameterPath path_in_curvature(const Parameters& parameters) {
+    return [parameters](double curvature) {
+        Parameters changed = parameters;
+        changed.membrane.spontaneous_curvature = curvature;
+        return changed;
+    };
+}
+
+ParameterPath path_in_patch_radius(const Parameters& parameters) {
+    return [parameters](double radius) {
+        Parameters changed = parameters;
+        changed.molecules.patch_radius = radius;
+        return changed;
+    };
+}
+
+double scale_of_curvature(const Parameters& parameters) {
+    const double curvature = std::abs(parameters.membrane.spontaneous_curvature);
+    return curvature > 0 ? curvature : 1 / parameters.domain.radius;
+}
+
+/// The flat membrane on a mesh that resolves the edge of the patch.
+PiecewiseSolution flat_guess(const Parameters& parameters, const GaussRule& rule, const Eigen::VectorXd& scales,
+                             std::size_t elements) {
+    const FlatMembrane flat{parameters};
+    const auto states = [&](double x) { return flat.states(x); };
+    const auto slopes = [&](double x) { return flat.slopes(x); };
+    std::vector<double> mesh;
+    for (std::size_t i = 0; i <= elements; ++i) mesh.push_back(static_cast<double>(i) / static_cast<double>(elements));
+    PiecewiseSolution guess = sample(mesh, rule, states, slopes, flat.globals(), 0);
+    if (molecules_are_frozen(parameters)) return guess;
+    for (int round = 0; round < 4; ++round)
+        guess = sample(equidistributed_mesh(guess, rule, scales, elements), rule, states, slopes, flat.globals(), 0);
+    return guess;
+}
+
+/// A membrane may not touch the axis away from its apex, and necks that are closed end a branch.
+bool open(const PiecewiseSolution& solution) {
+    const auto y = solution.nodes.row(state::r_squared);
+    return y.tail(y.size() - 1).minCoeff() > 0 && narrowest_radius(solution) > closed_neck_radius;
+}
+
+/// Quantities that stand for the whole shape, all of order one: area, height, apex moment.
+Eigen::Vector3d fingerprint(const PiecewiseSolution& solution, const BoundaryValueProblem& problem) {
+    const double rim = solution.nodes(state::height, solution.nodes.cols() - 1);
+    return {solution.globals(global::area) / problem.global_scales(global::area),
+            (solution.nodes(state::height, 0) - rim) / problem.state_scales(state::height),
+            solution.nodes(state::moment, 0) / problem.state_scales(state::moment)};
+}
+
+/// The state on a mesh with every element cut in two, with the change as its error.
+std::optional<StationaryState> refined(const BoundaryValueProblem& problem, const GaussRule& rule,
+                                       const Parameters& parameters, const BranchPoint& point) {
+    const auto guess = interpolate(point.solution, rule, halved_mesh(point.solution.mesh));
+    auto solved = solve_newton(problem, rule, guess, parameter_condition(guess, guess.parameter, problem), 20);
+    if (!solved) return std::nullopt;
+    const double change =
+        (fingerprint(solved->solution, problem) - fingerprint(point.solution, problem)).cwiseAbs().maxCoeff();
+    return StationaryState{
+        parameters,
+        {std::move(solved->solution), std::move(solved->tangent), point.arc_length, point.folds_before},
+        change};
+}
+
+constexpr const char* remedy = "choose a smaller patch or a smaller spontaneous curvature, or run the dynamics";
+
+std::string end_of_branch(const Branch& branch, const std::string& key, const std::string& unit) {
+    if (!branch.folds.empty())
+        return fmt::format("folds back at {} = {:.8g} {}", key, branch.folds.front().parameter(), unit);
+    return fmt::format("{} at {} = {:.6g} {}",
+                       branch.end == BranchEnd::no_progress ? "ends with a closing neck" : "was lost", key,
+                       branch.last.solution.parameter, unit);
+}
+
+/// Where the branch of smaller patches ends at the case's spontaneous curvature; empty when none was found.
+std::string end_in_patch_radius(const Parameters& parameters, const Resolution& resolution) {
+    const double wanted = parameters.molecules.patch_radius;
+    const ParameterPath path = path_in_patch_radius(parameters);
+    for (double radius = 0.9 * wanted; radius > 0.3 * wanted; radius *= 0.9) {
+        const Search smaller = search_stationary_state(path(radius), resolution);
+        if (!smaller.state) continue;
+        const auto branch = continue_state(
+            *smaller.state, path, radius, wanted, [](const BranchPoint&) { return true; }, resolution);
+        if (!branch) return "";
+        return fmt::format(", and with growing patches {}", end_of_branch(*branch, "molecules.patch_radius", "nm"));
+    }
+    return "";
+}
+
+}  // namespace
+
+Search search_stationary_state(const Parameters& parameters, const Resolution& resolution) {
+    const double target = parameters.membrane.spontaneous_curvature;
+    const GaussRule rule(resolution.points);
+    const BoundaryValueProblem problem =
+        stationary_shapes(path_in_curvature(parameters), target, scale_of_curvature(parameters));
+    const auto start =
+        begin_branch(problem, rule, flat_guess(parameters, rule, problem.state_scales, resolution.elements), target);
+    Search search;
+    if (!start) return search;
+    if (target == 0) {
+        search.branch = Branch{*start, {}, BranchEnd::reached_target};
+    } else {
+        search.branch = follow_branch(problem, rule, *start, target, {}, open, [](const BranchPoint&) { return true; });
+    }
+    if (search.branch->end == BranchEnd::reached_target)
+        search.state = refined(problem, rule, parameters, search.branch->last);
+    return search;
+}
+
+SolverError explain_absence(const Parameters& parameters, const Search& search, const Resolution& resolution) {
+    const std::string name = "no-stationary-state";
+    if (!search.branch)
+        return {name,
+                fmt::format("the molecules have no equilibrium with a patch of {:g} nm on the flat membrane",
+                            parameters.molecules.patch_radius),
+                "choose a larger molecules.patch_radius or molecules.transport = \"advection\""};
+    if (search.branch->end == BranchEnd::reached_target)
+        return {name, "Newton's method failed on the refined mesh", remedy};
+    return {name,
+            fmt::format("the stationary shapes that begin with the flat membrane do not reach this case "
+                        "(molecules.patch_radius = {:g} nm): their branch {}{}",
+                        parameters.molecules.patch_radius,
+                        end_of_branch(*search.branch, "membrane.spontaneous_curvature", "1/nm"),
+                        end_in_patch_radius(parameters, resolution)),
+            remedy};
+}
+
+StationaryState find_stationary_state(const Parameters& parameters, const Resolution& resolution) {
+    Search search = search_stationary_state(parameters, resolution);
+    if (!search.state) throw explain_absence(parameters, search, resolution);
+    return std::move(*search.state);
+}
+
+std::optional<Branch> continue_state(const StationaryState& state, const ParameterPath& with, double begin, double end,
+                                     const Visitor& visit, const Resolution& resolution) {
+    const GaussRule rule(resolution.points);
+    const BoundaryValueProblem problem = stationary_shapes(with, begin, std::max(std::abs(begin), 0.1 * std::abs(end)));
+    PiecewiseSolution guess = state.point.solution;
+    guess.parameter = begin;
+    const auto start = begin_branch(problem, rule, guess, end);
+    if (!start) return std::nullopt;
+    return follow_branch(problem, rule, *start, end, {}, open, visit);
+}
+
+Parameters with_disc_mass(Parameters parameters) {
+    auto& molecules = parameters.molecules;
+    const double excess =
+        std::numbers::pi * std::numbers::pi * molecules.interface_width * molecules.interface_width / 6;
+    const double squared = molecules.patch_radius * molecules.patch_radius - excess;
+    if (squared <= 0)
+        throw InputError(
+            fmt::format("molecules.patch_radius = {:g} nm is too small for a disc with an edge of width {:g} nm",
+                        molecules.patch_radius, molecules.interface_width));
+    molecules.patch_radius = std::sqrt(squared);
+    return parameters;
+}
+
+}  // namespace endoflow::statics

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "boundary_integral/statics/continuation.h"
+#include "boundary_integral/statics/shape_equations.h"
+#include "shared/support/error.h"
+
+namespace endoflow::statics {
+
+/// A stationary membrane of one case.
+struct StationaryState {
+    Parameters parameters;
+    BranchPoint point;          // its parameter is the spontaneous curvature H0
+    double relative_error = 0;  // largest change of area, height and apex moment when every element was cut in two
+};
+
+/// What following the shapes from the flat membrane at H0 = 0 to the case's H0 gave.
+struct Search {
+    std::optional<Branch> branch;          // empty when there is not even a solution at H0 = 0
+    std::optional<StationaryState> state;  // empty when the branch does not reach the case
+};
+
+/// Order of collocation and size of the first mesh.
+struct Resolution {
+    int points = 5;             // per element
+    std::size_t elements = 48;  // while a branch is followed; a state is then refined
+};
+
+/// Below this neck radius (nm) a branch is not followed further: the neck closes.
+inline constexpr double closed_neck_radius = 1.0;
+
+/// The stationary state that is connected with the flat membrane: the first one that is met at the case's H0.
+[[nodiscard]] Search search_stationary_state(const Parameters& parameters, const Resolution& resolution = {});
+
+/// Why the search found nothing, with the places of the folds in H0 and, computed here, in the patch radius.
+[[nodiscard]] SolverError explain_absence(const Parameters& parameters, const Search& search,
+                                          const Resolution& resolution = {});
+
+/// search_stationary_state(); throws what explain_absence() says when there is none.
+[[nodiscard]] StationaryState find_stationary_state(const Parameters& parameters, const Resolution& resolution = {});
+
+/// The branch through a state in another parameter, from the state's value to `end`. `with(value)` is the state's
+/// case with that parameter changed. Empty when Newton's method fails at once.
+[[nodiscard]] std::optional<Branch> continue_state(const StationaryState& state, const ParameterPath& with,
+                                                   double begin, double end, const Visitor& visit,
+                                                   const Resolution& resolution = {});
+
+/// The case in which patch_radius counts as the radius of the disc with the same mass, π r_c². The initial profile
+/// has mass π (r_c² + π² ε_c²/6), so the radius is reduced accordingly. Throws InputError for a patch that is too
+/// small.
+[[nodiscard]] Parameters with_disc_mass(Parameters parameters);
+
+}  // namespace endoflow::statics
