@@ -20,15 +20,17 @@ namespace endoflow::cli {
 namespace {
 
 const std::vector<std::string> engines{"boundary-integral", "phase-field"};
-const std::vector<std::string> commands{"run", "compare", "params", "check", "summary"};
+const std::vector<std::string> commands{"run", "compare", "converge", "sweep", "params", "check", "summary"};
 
 constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, computed by two independent engines
 
   endoflow run boundary-integral CASE.toml [-o DIR] [--set section.key=value]... [--until T] [--restart]
   endoflow run phase-field       CASE.toml [the same]     (mpirun -n N endoflow run phase-field ... uses N processes)
   endoflow compare DIR_A DIR_B [-o DIR]                    two runs: metrics.json, plots, report.html
+  endoflow converge CASE.toml --epsilon E1,E2,...          phase field against sharp membrane as the layer gets thin
+  endoflow sweep CASE.toml --vary KEY=FIRST:LAST:STEP --engine ENGINE [-o DIR] [--jobs N]      many runs of one case
   endoflow params [--markdown|--toml]                      every parameter: default, unit, bounds, meaning
-  endoflow check CASE.toml [--set section.key=value]...    validate a case file
+  endoflow check CASE.toml [--set section.key=value]...    validate a case file; --json prints all its parameters
   endoflow summary DIR                                     one screen about a run
   endoflow --version
 )";
@@ -56,6 +58,14 @@ int compare(int argc, char** argv) {
     become_python("comparisons/compare.py", {argv + 1, argv + argc});
 }
 
+int converge(int argc, char** argv) {
+    become_python("comparisons/converge.py", {argv + 1, argv + argc});
+}
+
+int sweep(int argc, char** argv) {
+    become_python("comparisons/sweep.py", {argv + 1, argv + argc});
+}
+
 int params(int argc, char** argv) {
     CLI::App app("Lists every parameter", "endoflow params");
     bool markdown = false, toml = false;
@@ -74,9 +84,14 @@ int check(int argc, char** argv) {
     std::vector<std::string> overrides;
     app.add_option("CASE", file, "case file (TOML)")->required();
     app.add_option("--set", overrides, "section.key=value, overrides the case file")->allow_extra_args(false);
+    bool json = false;
+    app.add_flag("--json", json, "print every parameter with its value");
     if (!parse(app, argc, argv)) return 0;
     const Parameters parameters = read_case(file, overrides);
-    fmt::print("{}: valid (case '{}')\n", file, parameters.case_.name);
+    if (json)
+        fmt::print("{}\n", parameters_to_json(parameters).dump(2));
+    else
+        fmt::print("{}: valid (case '{}')\n", file, parameters.case_.name);
     return 0;
 }
 
@@ -101,6 +116,8 @@ int dispatch(int argc, char** argv) {
     }
     if (command == "run") return run(argc - 1, argv + 1);
     if (command == "compare") return compare(argc - 1, argv + 1);
+    if (command == "converge") return converge(argc - 1, argv + 1);
+    if (command == "sweep") return sweep(argc - 1, argv + 1);
     if (command == "params") return params(argc - 1, argv + 1);
     if (command == "check") return check(argc - 1, argv + 1);
     if (command == "summary") return summary(argc - 1, argv + 1);

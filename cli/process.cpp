@@ -51,6 +51,8 @@ void become_python(const fs::path& script, const std::vector<std::string>& argum
     const char* before = std::getenv("PYTHONPATH");
     const std::string path = (data / "python").string() + (before != nullptr ? ":" + std::string(before) : "");
     ::setenv("PYTHONPATH", path.c_str(), 1);
+    // Scripts that start runs call this very program.
+    ::setenv("ENDOFLOW_PROGRAM", fs::read_symlink("/proc/self/exe").c_str(), 1);
     std::vector<std::string> all{(data / script).string()};
     all.insert(all.end(), arguments.begin(), arguments.end());
     become(python_program(), all);
