@@ -20,7 +20,7 @@ namespace endoflow::cli {
 namespace {
 
 const std::vector<std::string> engines{"boundary-integral", "phase-field"};
-const std::vector<std::string> commands{"run", "compare", "converge", "sweep", "params", "check", "summary"};
+const std::vector<std::string> commands{"run", "compare", "converge", "sweep", "statics", "params", "check", "summary"};
 
 constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, computed by two independent engines
 
@@ -29,6 +29,7 @@ constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, comp
   endoflow compare DIR_A DIR_B [-o DIR]                    two runs: metrics.json, plots, report.html
   endoflow converge CASE.toml --epsilon E1,E2,...          phase field against sharp membrane as the layer gets thin
   endoflow sweep CASE.toml --vary KEY=FIRST:LAST:STEP --engine ENGINE [-o DIR] [--jobs N]      many runs of one case
+  endoflow statics CASE.toml [-o DIR] [--continue-in KEY=END]               stationary shapes of the sharp membrane
   endoflow params [--markdown|--toml]                      every parameter: default, unit, bounds, meaning
   endoflow check CASE.toml [--set section.key=value]...    validate a case file; --json prints all its parameters
   endoflow summary DIR                                     one screen about a run
@@ -118,6 +119,7 @@ int dispatch(int argc, char** argv) {
     if (command == "compare") return compare(argc - 1, argv + 1);
     if (command == "converge") return converge(argc - 1, argv + 1);
     if (command == "sweep") return sweep(argc - 1, argv + 1);
+    if (command == "statics") become_program("endoflow-statics", {argv + 2, argv + argc});
     if (command == "params") return params(argc - 1, argv + 1);
     if (command == "check") return check(argc - 1, argv + 1);
     if (command == "summary") return summary(argc - 1, argv + 1);

@@ -113,7 +113,7 @@ ExitReason write_branch(const Parameters& parameters, const Request& request, co
         throw SolverError("no-convergence", "Newton's method failed at the first point of the branch",
                           "choose another parameter or start from another case");
     if (interruption_signal() != 0) return ExitReason::interrupted;
-    const bool neck_closed = branch->end == BranchEnd::no_progress;
+    const bool neck_closed = neck_closes(*branch);
     writer.output.note("branch", {{"parameter", key},
                                   {"begin", number(parameters, key)},
                                   {"end", branch->last.solution.parameter},

@@ -48,10 +48,18 @@ PiecewiseSolution flat_guess(const Parameters& parameters, const GaussRule& rule
     return guess;
 }
 
-/// A membrane may not touch the axis away from its apex, and necks that are closed end a branch.
-bool open(const PiecewiseSolution& solution) {
+/// A membrane may not touch the axis away from its apex.
+bool off_the_axis(const PiecewiseSolution& solution) {
     const auto y = solution.nodes.row(state::r_squared);
-    return y.tail(y.size() - 1).minCoeff() > 0 && narrowest_radius(solution) > closed_neck_radius;
+    return y.tail(y.size() - 1).minCoeff() > 0;
+}
+
+bool neck_is_closed(const PiecewiseSolution& solution) {
+    return narrowest_radius(solution) < closed_neck_radius;
+}
+
+bool neck_is_open(const BranchPoint& point) {
+    return !neck_is_closed(point.solution);
 }
 
 /// Quantities that stand for the whole shape, all of order one: area, height, apex moment.
@@ -81,8 +89,7 @@ constexpr const char* remedy = "choose a smaller patch or a smaller spontaneous 
 std::string end_of_branch(const Branch& branch, const std::string& key, const std::string& unit) {
     if (!branch.folds.empty())
         return fmt::format("folds back at {} = {:.8g} {}", key, branch.folds.front().parameter(), unit);
-    return fmt::format("{} at {} = {:.6g} {}",
-                       branch.end == BranchEnd::no_progress ? "ends with a closing neck" : "was lost", key,
+    return fmt::format("{} at {} = {:.6g} {}", neck_closes(branch) ? "ends with a closing neck" : "was lost", key,
                        branch.last.solution.parameter, unit);
 }
 
@@ -115,11 +122,15 @@ Search search_stationary_state(const Parameters& parameters, const Resolution& r
     if (target == 0) {
         search.branch = Branch{*start, {}, BranchEnd::reached_target};
     } else {
-        search.branch = follow_branch(problem, rule, *start, target, {}, open, [](const BranchPoint&) { return true; });
+        search.branch = follow_branch(problem, rule, *start, target, {}, off_the_axis, neck_is_open);
     }
     if (search.branch->end == BranchEnd::reached_target)
         search.state = refined(problem, rule, parameters, search.branch->last);
     return search;
+}
+
+bool neck_closes(const Branch& branch) {
+    return branch.end == BranchEnd::stopped && neck_is_closed(branch.last.solution);
 }
 
 SolverError explain_absence(const Parameters& parameters, const Search& search, const Resolution& resolution) {
@@ -154,7 +165,8 @@ std::optional<Branch> continue_state(const StationaryState& state, const Paramet
     guess.parameter = begin;
     const auto start = begin_branch(problem, rule, guess, end);
     if (!start) return std::nullopt;
-    return follow_branch(problem, rule, *start, end, {}, open, visit);
+    const auto visit_open = [&](const BranchPoint& point) { return visit(point) && neck_is_open(point); };
+    return follow_branch(problem, rule, *start, end, {}, off_the_axis, visit_open);
 }
 
 Parameters with_disc_mass(Parameters parameters) {

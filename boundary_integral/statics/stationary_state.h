@@ -25,11 +25,14 @@ struct Resolution {
     std::size_t elements = 48;  // while a branch is followed; a state is then refined
 };
 
-/// Below this neck radius (nm) a branch is not followed further: the neck closes.
+/// A branch is not followed beyond the first neck that is narrower than this, nm: the neck closes.
 inline constexpr double closed_neck_radius = 1.0;
 
 /// The stationary state that is connected with the flat membrane: the first one that is met at the case's H0.
 [[nodiscard]] Search search_stationary_state(const Parameters& parameters, const Resolution& resolution = {});
+
+/// Whether a branch ended because its neck closes.
+[[nodiscard]] bool neck_closes(const Branch& branch);
 
 /// Why the search found nothing, with the places of the folds in H0 and, computed here, in the patch radius.
 [[nodiscard]] SolverError explain_absence(const Parameters& parameters, const Search& search,

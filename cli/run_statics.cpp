@@ -1,0 +1,52 @@
+// endoflow-statics: what `endoflow statics` becomes.
+
+#include "boundary_integral/statics/simulation.h"
+#include "command_line.h"
+#include "shared/output/run_output.h"
+#include "shared/parameters/case_file.h"
+#include "shared/support/interruption.h"
+
+namespace endoflow::cli {
+
+namespace {
+
+int run(int argc, char** argv) {
+    CLI::App app("Stationary shape of the membrane: no flow, no pressure difference, no tension at the rim",
+                 "endoflow statics");
+    std::filesystem::path case_file, directory;
+    std::vector<std::string> overrides;
+    std::string continuation;
+    statics::Request request;
+    app.add_option("CASE", case_file, "case file (TOML)")->required();
+    app.add_option("-o,--output", directory, "directory of the result [out/CASE/statics]");
+    app.add_option("--set", overrides, "section.key=value, overrides the case file; may be repeated")
+        ->allow_extra_args(false);
+    app.add_option("--continue-in", continuation,
+                   "section.key=END: all stationary shapes from the case's value to END");
+    app.add_flag("--disc-mass", request.disc_mass,
+                 "the molecules' mass is π patch_radius², not that of the initial profile, which is a little larger");
+    if (!parse(app, argc, argv)) return 0;
+    const Parameters parameters = read_case(case_file, overrides);
+    if (!continuation.empty()) request.continuation = statics::parse_continuation(continuation, parameters);
+    if (directory.empty()) directory = std::filesystem::path("out") / case_file.stem() / "statics";
+
+    install_signal_handlers();
+    RunOutput output(parameters, statics::identity(), directory, StartMode::fresh);
+    try {
+        const ExitReason reason = statics::simulate(parameters, request, output);
+        output.finish(reason);
+        return reason == ExitReason::interrupted ? exit_code_of_signal(interruption_signal()) : 0;
+    } catch (const std::exception& failure) {
+        output.finish_with_error(failure.what());
+        throw;
+    }
+}
+
+}  // namespace
+
+}  // namespace endoflow::cli
+
+int main(int argc, char** argv) {
+    using namespace endoflow::cli;
+    return report(attempt([&] { return run(argc, argv); }));
+}
