@@ -14,7 +14,7 @@ struct CoupledPoint {
     double r, measure;              // radius [nm]; r dr dz with the quadrature weight [nm³]
     PhaseFieldPoint phi;            // φⁿ
     LayerGeometry layer;            // |∇φⁿ|, n, P
-    RelaxationWeight relaxation;    // of the profile
+    ProfileRelaxation relaxation;   // zero unless it is switched on
     double viscosity;               // ν(φⁿ)
     double velocity_r, velocity_z;  // uⁿ (inertia)
     double moment;                  // (β f)ⁿ

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "phasefield/discretization/recovered_gradient.h"
+
 namespace endoflow::phasefield {
 
 namespace {
@@ -17,12 +19,13 @@ std::vector<unsigned int> copies(int degree, std::size_t count) {
 Spaces::Spaces(const Mesh& mesh, const Parameters& p)
     : flow(mesh, flow_degrees(p.phase_field)),
       molecules(mesh, copies(p.phase_field.surface_degree, 2)),
-      stretching(mesh, copies(p.phase_field.surface_degree, 1)) {}
+      stretching(mesh, copies(p.phase_field.surface_degree, 1)),
+      gradient(mesh, copies(p.phase_field.degree, 2)) {}
 
 void Spaces::distribute(const Parameters& parameters) {
     flow.distribute();
     close_flow_constraints(flow, parameters);
-    for (Space* space : {&molecules, &stretching}) {
+    for (Space* space : {&molecules, &stretching, &gradient}) {
         space->distribute();
         space->constraints.close();
     }
@@ -41,7 +44,8 @@ OldFields::OldFields(const Spaces& spaces, const Parameters& parameters, const d
       stretching_basis_(spaces.stretching.degrees[0], quadrature),
       flow_values_(spaces.flow.element.n_dofs_per_cell()),
       molecule_values_(spaces.molecules.element.n_dofs_per_cell()),
-      stretching_values_(spaces.stretching.element.n_dofs_per_cell()) {
+      stretching_values_(spaces.stretching.element.n_dofs_per_cell()),
+      gradient_values_(spaces.gradient.element.n_dofs_per_cell()) {
     for (const unsigned int component : {u_r, u_z, phi, moment})
         flow_bases_.push_back(std::make_shared<const ScalarBasis>(spaces.flow.degrees[component], quadrature));
 }
@@ -78,7 +82,7 @@ void OldFields::evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterator&
         p.measure = quadrature_.weight(q) * box.hr * box.hz * p.r;
         p.phi = {phi_.value[q], phi_.r[q], phi_.z[q], phi_.rr[q], phi_.rz[q], phi_.zz[q]};
         p.layer = layer_geometry(phi_.r[q], phi_.z[q], numerics.epsilon);
-        p.relaxation = relaxation_weight(p.phi, p.layer, p.r, parameters_.domain.radius, numerics.epsilon);
+        p.relaxation = {};
         p.viscosity = viscosity(p.phi.value, parameters_.fluid, numerics.viscosity_mean);
         p.velocity_r = u_r_.value[q];
         p.velocity_z = u_z_.value[q];
@@ -87,6 +91,28 @@ void OldFields::evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterator&
         p.c_z = concentration_.z[q];
         p.bending = bending_coefficients(model_, concentration_.value[q]);
         p.stretching = stretching_.value[q];
+    }
+    if (gradient_ != nullptr) evaluate_relaxation(cell, points);
+}
+
+void OldFields::evaluate_relaxation(const dealii::DoFHandler<2>::active_cell_iterator& cell, CoupledPoints& points) {
+    const CellBox box = cell_box(cell);
+    const dealii::DoFHandler<2>::active_cell_iterator gradient_cell(&cell->get_triangulation(), cell->level(),
+                                                                    cell->index(), &spaces_->gradient.dofs);
+    gradient_cell->get_dof_values(*gradient_, gradient_values_);
+    component_values(spaces_->gradient, 0, gradient_values_, coefficients_);
+    evaluate(*flow_bases_[2], box, coefficients_, Derivatives::first, gradient_r_);
+    component_values(spaces_->gradient, 1, gradient_values_, coefficients_);
+    evaluate(*flow_bases_[2], box, coefficients_, Derivatives::first, gradient_z_);
+    for (std::size_t q = 0; q < points.size(); ++q) {
+        CoupledPoint& p = points[q];
+        const PhaseFieldPoint recovered{p.phi.value,
+                                        gradient_r_.value[q],
+                                        gradient_z_.value[q],
+                                        gradient_r_.r[q],
+                                        0.5 * (gradient_r_.z[q] + gradient_z_.r[q]),
+                                        gradient_z_.z[q]};
+        p.relaxation = profile_relaxation(recovered, p.r, parameters_.domain.radius, parameters_.phase_field.epsilon);
     }
 }
 
@@ -113,6 +139,11 @@ void assemble_coupled(const Spaces& spaces, const State& old_state, const Vector
     const dealii::QGauss<2> quadrature(quadrature_points(parameters.phase_field));
     const StepCoefficients step{tau, parameters.phase_field, parameters.fluid};
     OldFields old_fields(spaces, parameters, quadrature);
+    Vector recovered_gradient;
+    if (parameters.phase_field.profile_mobility > 0) {
+        recovered_gradient = recover_gradient(spaces.flow, phi, old_state.flow, spaces.gradient);
+        old_fields.with_relaxation(recovered_gradient);
+    }
     LocalSystem local(spaces.flow, quadrature);
     const unsigned int n = spaces.flow.element.n_dofs_per_cell();
     dealii::FullMatrix<double> cell_matrix(n, n);

@@ -17,6 +17,7 @@ struct Spaces {
     Space flow;        // FlowComponent
     Space molecules;   // MoleculeComponent
     Space stretching;  // s
+    Space gradient;    // of φ, recovered
 };
 
 /// All unknowns at one time level; ghosted vectors.
@@ -28,20 +29,25 @@ struct State {
 class OldFields {
   public:
     OldFields(const Spaces& spaces, const Parameters& parameters, const dealii::Quadrature<2>& quadrature);
+    /// Also evaluate the profile relaxation, for which `recovered_gradient` of φ is needed (kept by reference).
+    void with_relaxation(const Vector& recovered_gradient) { gradient_ = &recovered_gradient; }
     /// Fills `points` for the cell with the given flow-space iterator position.
     void evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell, const State& state,
                        CoupledPoints& points);
 
   private:
+    void evaluate_relaxation(const dealii::DoFHandler<2>::active_cell_iterator& cell, CoupledPoints& points);
+
     const Spaces* spaces_;
+    const Vector* gradient_ = nullptr;
     Parameters parameters_;
     BendingModel model_;
     dealii::Quadrature<2> quadrature_;
     std::vector<std::shared_ptr<const ScalarBasis>> flow_bases_;
     ScalarBasis molecule_basis_, stretching_basis_;
-    dealii::Vector<double> flow_values_, molecule_values_, stretching_values_;
+    dealii::Vector<double> flow_values_, molecule_values_, stretching_values_, gradient_values_;
     std::vector<double> coefficients_;
-    ScalarField phi_, u_r_, u_z_, moment_, concentration_, stretching_;
+    ScalarField phi_, u_r_, u_z_, moment_, concentration_, stretching_, gradient_r_, gradient_z_;
 };
 
 /// Number of Gauss points per direction that integrates the coupled system well.

@@ -94,19 +94,21 @@ void add_phase_field_rate(const CoupledPoints& points, const StepCoefficients& s
 /// curvature term, does not move the interface.
 void add_profile_relaxation(const CoupledPoints& points, const StepCoefficients& step, LocalSystem& local) {
     const double M = step.numerics.profile_mobility, epsilon = step.numerics.epsilon;
-    const auto diffusion = [&](const auto& p) { return -p.measure * M * epsilon * p.relaxation.value; };
-    const auto drift = [&](const auto& p) { return -p.measure * M * epsilon * p.relaxation.normal_divergence; };
-    const auto reaction = [&](const auto& p) { return p.measure * M / epsilon * p.relaxation.value; };
+    const auto diffusion = [&](const auto& p) { return -p.measure * M * epsilon * p.relaxation.weight; };
+    const auto drift = [&](const auto& p) {
+        return -p.measure * M * epsilon * p.relaxation.weighted_normal_divergence;
+    };
+    const auto reaction = [&](const auto& p) { return p.measure * M / epsilon * p.relaxation.weight; };
     const auto add = [&](Op test_op, Op trial_op, const auto& coefficient) {
         local.linear(force, test_op, phi, trial_op,
                      at_points(points, [&](const auto& p, std::size_t) { return coefficient(p); }));
     };
-    add(Op::dr, Op::dr, [&](const auto& p) { return diffusion(p) * p.layer.normal_r * p.layer.normal_r; });
-    add(Op::dr, Op::dz, [&](const auto& p) { return diffusion(p) * p.layer.normal_r * p.layer.normal_z; });
-    add(Op::dz, Op::dr, [&](const auto& p) { return diffusion(p) * p.layer.normal_z * p.layer.normal_r; });
-    add(Op::dz, Op::dz, [&](const auto& p) { return diffusion(p) * p.layer.normal_z * p.layer.normal_z; });
-    add(Op::value, Op::dr, [&](const auto& p) { return drift(p) * p.layer.normal_r; });
-    add(Op::value, Op::dz, [&](const auto& p) { return drift(p) * p.layer.normal_z; });
+    add(Op::dr, Op::dr, [&](const auto& p) { return diffusion(p) * p.relaxation.normal_r * p.relaxation.normal_r; });
+    add(Op::dr, Op::dz, [&](const auto& p) { return diffusion(p) * p.relaxation.normal_r * p.relaxation.normal_z; });
+    add(Op::dz, Op::dr, [&](const auto& p) { return diffusion(p) * p.relaxation.normal_z * p.relaxation.normal_r; });
+    add(Op::dz, Op::dz, [&](const auto& p) { return diffusion(p) * p.relaxation.normal_z * p.relaxation.normal_z; });
+    add(Op::value, Op::dr, [&](const auto& p) { return drift(p) * p.relaxation.normal_r; });
+    add(Op::value, Op::dz, [&](const auto& p) { return drift(p) * p.relaxation.normal_z; });
     const auto& now = local.field(phi).value;
     local.residual(force, Op::value, at_points(points, [&](const auto& p, std::size_t q) {
                        return reaction(p) * now[q] * (1 - now[q] * now[q]);

@@ -38,22 +38,23 @@ inline double normal_divergence(const PhaseFieldPoint& phi, double r, double flo
     return (phi.rr + phi.zz + hoop - nHn) / a;
 }
 
-/// Where the profile relaxation acts: weight W = (1 − φ⁴)(1 − exp(−((R − r)/(2ε))²)) and ∇·(n W) [1/nm].
-/// It fades in the tails of the layer, where n means nothing, and at r = R, where φ is given and the relaxation could
+/// Where and how the profile relaxation acts: n, the weight W = (1 − φ⁴)(1 − exp(−((R − r)/(2ε))²)) and ∇·(n W) [1/nm].
+/// W fades in the tails of the layer, where n means nothing, and at r = R, where φ is given and the relaxation could
 /// only be balanced by a spurious γ g.
-struct RelaxationWeight {
-    double value, normal_divergence;
+struct ProfileRelaxation {
+    double normal_r, normal_z, weight, weighted_normal_divergence;
 };
 
-inline RelaxationWeight relaxation_weight(const PhaseFieldPoint& phi, const LayerGeometry& layer, double r,
-                                          double radius, double epsilon) {
+/// `phi` holds the recovered, continuous gradient and its derivatives.
+inline ProfileRelaxation profile_relaxation(const PhaseFieldPoint& phi, double r, double radius, double epsilon) {
+    const LayerGeometry layer = layer_geometry(phi.r, phi.z, epsilon);
     const double x = (radius - r) / (2 * epsilon), wall = 1 - std::exp(-x * x);
     const double wall_r = -x / epsilon * std::exp(-x * x);
     const double p = std::clamp(phi.value, -1.0, 1.0), tail = 1 - p * p * p * p;
     const double along_normal = layer.normal_r * phi.r + layer.normal_z * phi.z;
     const double divergence = normal_divergence(phi, r, 1e-4 / epsilon);
     const double derivative = -4 * p * p * p * along_normal * wall + tail * layer.normal_r * wall_r;
-    return {tail * wall, tail * wall * divergence + derivative};
+    return {layer.normal_r, layer.normal_z, tail * wall, tail * wall * divergence + derivative};
 }
 
 /// ν(φ) [pN µs/nm²]: ν₁ at φ = +1 (extracellular), ν₂ at φ = −1.
