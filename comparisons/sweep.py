@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""`endoflow sweep CASE.toml --vary section.key=start:stop:step --engine E [-o DIR]`: many runs of one case, their table and plots.
+
+Exit codes: 0 done; 2 bad command line or parameter; 3 a run failed; 4 input or output; 130 or 143 interrupted (run it again
+to continue).
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
+
+from study_command import (  # noqa: E402  (lies beside this file)
+    RUN_FAILED,
+    add_run_options,
+    common_settings,
+    guarded,
+    lock,
+    output_directory,
+    program,
+    report_failures,
+    run_members,
+)
+
+
+def parsed(arguments):
+    """The command line as a namespace."""
+    parser = argparse.ArgumentParser(
+        prog="endoflow sweep",
+        description="Run a case with many values of some parameters.",
+        allow_abbrev=False,
+        epilog="Finished runs are not repeated and interrupted ones are continued when the command is given again.",
+    )
+    add_run_options(parser, "sweep")
+    parser.add_argument(
+        "--vary",
+        metavar="section.key=VALUES",
+        action="append",
+        required=True,
+        help="start:stop:step (stop included) or value,value,...; may be repeated for all combinations",
+    )
+    parser.add_argument("--engine", required=True, choices=("boundary-integral", "phase-field", "both"))
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument("--slurm", action="store_true", help="write DIR/sweep.sbatch for the unfinished runs; run nothing")
+    what.add_argument("--collect", action="store_true", help="make the table and plots of what is there; run nothing")
+    return parser.parse_args(arguments)
+
+
+def sweep_members(options, output):
+    """Every member (members.Member), its parameters checked."""
+    from members import ENGINES, Member, directory_name, resolved_parameters
+    from ranges import combinations, parsed_variation
+
+    engines = ENGINES if options.engine == "both" else (options.engine,)
+    members = []
+    for values in combinations([parsed_variation(text) for text in options.vary]):
+        settings = (*common_settings(options), *(f"{key}={value}" for key, value in values.items()))
+        parameters = resolved_parameters(program(), options.case, settings)
+        for engine in engines:
+            name = f"{directory_name(values)}/{engine}"
+            members.append(Member(name, output / name, engine, settings, values, parameters))
+    return members
+
+
+def write_slurm(members, options, output):
+    """Write DIR/sweep.sbatch for what is left to do; returns what to tell the user."""
+    from members import FINISHED, run_command, work_left
+    from slurm import array_script
+
+    left = [(work_left(member), member) for member in members]
+    entries = [
+        (work, member.directory, run_command('"$endoflow"', options.case, member, "", options.processes))
+        for work, member in left
+        if work != FINISHED
+    ]
+    if not entries:
+        return f"all {len(members)} runs are finished: nothing to submit"
+    script = output / "sweep.sbatch"
+    text = array_script(
+        entries, options.case.stem, script, Path.cwd(), program(), options.processes, threads=1, jobs=options.jobs
+    )
+    script.write_text(text, encoding="utf-8")
+    return f"{len(entries)} of {len(members)} runs left: sbatch {script}; afterwards the same command with --collect"
+
+
+def collect(members, outcomes, output):
+    """Write the table; returns its rows."""
+    from sweep_table import row, write_table
+
+    rows = [row(member, outcomes.get(member.name)) for member in members]
+    write_table(output / "sweep.csv", rows)
+    return rows
+
+
+def summary_lines(rows, drawn, output):
+    """What the terminal shows at the end, as a list of lines."""
+    states = [row["state"] for row in rows]
+    counts = ", ".join(f"{states.count(state)} {state}" for state in dict.fromkeys(states))
+    plots = ", ".join(f"{name}.png" for name in drawn) or "none"
+    return [f"runs    {counts}", f"table   {output / 'sweep.csv'}", f"plots   {plots}"]
+
+
+def sweep(options):
+    """Run the command; returns its exit code."""
+    import sweep_plots
+    from member_runner import Interruption
+
+    output = output_directory(options, "sweep")
+    members = sweep_members(options, output)
+    with lock(output):
+        if options.slurm:
+            print(write_slurm(members, options, output))
+            return 0
+        outcomes = {}
+        if not options.collect:
+            with Interruption() as interruption:
+                outcomes = run_members(members, options, interruption)
+            if interruption.signal:
+                collect(members, outcomes, output)
+                print("endoflow sweep: interrupted; the same command continues", file=sys.stderr)
+                return 128 + interruption.signal
+        rows = collect(members, outcomes, output)
+        drawn = sweep_plots.write_all(rows, [*members[0].values], output)
+        print("\n".join(summary_lines(rows, drawn, output)))
+        return RUN_FAILED if report_failures("sweep", outcomes) else 0
+
+
+def main(arguments):
+    """Run the command; returns its exit code."""
+    options = parsed(arguments)
+    return guarded("sweep", lambda: sweep(options))
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except KeyboardInterrupt:
+        sys.exit(130)
