@@ -10,7 +10,7 @@ MembraneDynamics::MembraneDynamics(const Parameters& parameters)
       model_(parameters.membrane),
       box_(parameters, space_),
       mesh_(space_, {parameters.boundary_integral.mesh_curvature_length, parameters.boundary_integral.mesh_edge_weight,
-                     parameters.boundary_integral.mesh_relaxation_time, 2.0}) {}
+                     parameters.boundary_integral.mesh_relaxation_time, parameters.boundary_integral.mesh_smoothing}) {}
 
 Eigen::VectorXd MembraneDynamics::pack(const Eigen::VectorXd& curve, const Eigen::VectorXd& moments) const {
     Eigen::VectorXd y(size());

@@ -2,19 +2,22 @@
 
 #include <cmath>
 
+#include "boundary_integral/membrane/energy.h"
+
 namespace endoflow::boundary_integral {
 
 namespace {
 
-// int N' B' + l^2 N'' B'' over xi: the filter that turns rho g into smooth element numbers.
-Eigen::MatrixXd smoothing_matrix(const MembraneSpace& space, double length) {
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(space.radial_count(), space.radial_count());
+// int a B_i' B_j' + b B_i B_j over xi.
+Eigen::MatrixXd one_dimensional_matrix(const MembraneSpace& space, const std::vector<BasisRow>& rows, Index dimension,
+                                       double stiffness, double mass) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(dimension, dimension);
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
-        const BasisRow& b = space.radial_rows[i];
+        const BasisRow& b = rows[i];
         for (std::size_t j = 0; j < 6; ++j) {
             for (std::size_t k = 0; k < 6; ++k) {
-                matrix(b.index[j], b.index[k]) +=
-                    space.weight[i] * (b.value[1][j] * b.value[1][k] + length * length * b.value[2][j] * b.value[2][k]);
+                matrix(b.index[j], b.index[k]) += space.weight[i] * (stiffness * b.value[1][j] * b.value[1][k] +
+                                                                     mass * b.value[0][j] * b.value[0][k]);
             }
         }
     }
@@ -34,26 +37,40 @@ MeshMotion::MeshMotion(const MembraneSpace& space, const MeshDensity& density)
       axial_points_(space.axial().greville_points()),
       radial_interpolation_(collocation_matrix(space.radial(), radial_points_), "interpolation"),
       axial_interpolation_(collocation_matrix(space.axial(), axial_points_), "interpolation"),
-      smoothing_(smoothing_matrix(space, density.smoothing_elements * space.element_width()), "mesh smoothing") {}
+      filter_(one_dimensional_matrix(space, space.axial_rows, space.axial_count(),
+                                     density.smoothing * density.smoothing, 1.0),
+              "mesh filter"),
+      antiderivative_(one_dimensional_matrix(space, space.radial_rows, space.radial_count(), 1.0, 0.0),
+                      "antiderivative") {}
 
-double MeshMotion::density_at(const CurvePoint& p, double c) const {
-    const double bend =
-        density_.curvature_length * density_.curvature_length *
-        (p.meridional_curvature * p.meridional_curvature + p.azimuthal_curvature * p.azimuthal_curvature);
-    const double edge = density_.edge_weight * 4.0 * c * (1.0 - c);
-    return std::sqrt(1.0 + bend + edge * edge);
+// rho - l^2 rho'' = wanted: neighbouring elements differ by a factor of at most exp(h/l).
+std::vector<double> MeshMotion::filtered_density(const MembraneSamples& samples) const {
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(space_.axial_count());
+    const double length = density_.curvature_length;
+    for (std::size_t i = 0; i < space_.xi.size(); ++i) {
+        const CurvePoint& p = samples.curve[i];
+        const double bend =
+            length * length *
+            (p.meridional_curvature * p.meridional_curvature + p.azimuthal_curvature * p.azimuthal_curvature);
+        const double edge = density_.edge_weight * 4.0 * samples.c[i] * (1.0 - samples.c[i]);
+        const double wanted = std::sqrt(1.0 + bend + edge * edge);
+        const BasisRow& b = space_.axial_rows[i];
+        for (std::size_t j = 0; j < 6; ++j) right[b.index[j]] += space_.weight[i] * wanted * b.value[0][j];
+    }
+    return values_at_points(space_.axial_rows, filter_.solve(right));
 }
 
 Eigen::VectorXd MeshMotion::wanted_numbers(const MembraneSamples& samples) const {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(space_.radial_count());
+    const std::vector<double> density = filtered_density(samples);
     double total = 0.0;
     for (std::size_t i = 0; i < space_.xi.size(); ++i) {
-        const double value = space_.weight[i] * density_at(samples.curve[i], samples.c[i]) * samples.curve[i].g;
+        const double value = space_.weight[i] * density[i] * samples.curve[i].g;
         total += value;
         const BasisRow& b = space_.radial_rows[i];
         for (std::size_t j = 0; j < 6; ++j) right[b.index[j]] += value * b.value[1][j];
     }
-    return smoothing_.solve(right / total);
+    return antiderivative_.solve(right / total);
 }
 
 template <class Speed>
@@ -95,9 +112,10 @@ Eigen::MatrixXd MeshMotion::derivative_by_curve(const MembraneState& state, cons
     Eigen::RowVectorXd total_variation = Eigen::RowVectorXd::Zero(space_.curve_count());
     double total = 0.0;
     const Index offset = space_.radial_count();
+    const std::vector<double> density = filtered_density(samples);
     for (std::size_t i = 0; i < space_.xi.size(); ++i) {
         const CurvePoint& p = samples.curve[i];
-        const double rho = space_.weight[i] * density_at(p, samples.c[i]);
+        const double rho = space_.weight[i] * density[i];
         total += rho * p.g;
         const BasisRow& b = space_.radial_rows[i];
         const BasisRow& a = space_.axial_rows[i];
@@ -113,7 +131,7 @@ Eigen::MatrixXd MeshMotion::derivative_by_curve(const MembraneState& state, cons
         }
     }
     const Eigen::VectorXd numbers = wanted_numbers(samples);
-    const Eigen::MatrixXd variation = (smoothing_.solve(right) - numbers * total_variation) / total;
+    const Eigen::MatrixXd variation = (antiderivative_.solve(right) - numbers * total_variation) / total;
     Eigen::MatrixXd r(space_.radial_count(), space_.curve_count()), z(space_.axial_count(), space_.curve_count());
     const auto row = [&](double xi, bool radial) -> Eigen::RowVectorXd {
         const BasisRow b = space_.radial().basis(xi);

@@ -13,10 +13,10 @@ namespace endoflow::boundary_integral {
 // Elements per arc length are proportional to
 //     rho = sqrt(1 + (curvature_length)^2 (kappa_m^2 + kappa_p^2) + (edge_weight 4 c (1 - c))^2)
 struct MeshDensity {
-    double curvature_length = 8.0;  // nm
-    double edge_weight = 2.0;
-    double relaxation_time = 0.02;    // us
-    double smoothing_elements = 2.0;  // rho g is filtered over this many elements
+    double curvature_length;  // nm
+    double edge_weight;
+    double relaxation_time;  // us
+    double smoothing;        // rho is filtered over this length in xi, whatever the number of elements
 };
 
 class MeshMotion {
@@ -40,9 +40,9 @@ class MeshMotion {
     const MembraneSpace& space_;
     MeshDensity density_;
     std::vector<double> radial_points_, axial_points_;  // Greville points of the two spaces
-    LuFactors radial_interpolation_, axial_interpolation_, smoothing_;
+    LuFactors radial_interpolation_, axial_interpolation_, filter_, antiderivative_;
 
-    double density_at(const CurvePoint& p, double c) const;
+    std::vector<double> filtered_density(const MembraneSamples& samples) const;  // at the Gauss points
     template <class Speed>
     Eigen::VectorXd interpolate_tangential(const MembraneState& state, Speed speed) const;
 };

@@ -212,6 +212,8 @@ std::vector<ParameterRow> boundary_integral_rows() {
             at_least(0, 1e3), "", "elements get short where the curvature exceeds the inverse of this"),
         row("boundary_integral", "mesh_edge_weight", &P::boundary_integral, &S::mesh_edge_weight, "", at_least(0, 20),
             "", "how much shorter elements are at the edge of the patch"),
+        row("boundary_integral", "mesh_smoothing", &P::boundary_integral, &S::mesh_smoothing, "", positive(1), "",
+            "part of the mesh over which the element density is filtered, so that neighbours are similar"),
         row("boundary_integral", "mesh_relaxation_time", &P::boundary_integral, &S::mesh_relaxation_time, "µs",
             positive(1e3), "", "time in which the elements move to where they are wanted"),
         row("boundary_integral", "neck_closed_radius", &P::boundary_integral, &S::neck_closed_radius, "nm",

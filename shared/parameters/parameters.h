@@ -80,7 +80,8 @@ struct BoundaryIntegralParameters {
     int elements = 80;
     int quadrature_order = 8;
     double mesh_curvature_length = 8;
-    double mesh_edge_weight = 2;
+    double mesh_edge_weight = 4;
+    double mesh_smoothing = 0.05;
     double mesh_relaxation_time = 0.02;
     double neck_closed_radius = 0.05;
 };
