@@ -138,7 +138,7 @@ def membranes(a, b, times, labels, colours):
     return figure
 
 
-def _legend_on_top(figure, handles, texts):
+def legend_on_top(figure, handles, texts):
     """A one-line legend above all panels."""
     strip = 0.36 / figure.get_figheight()
     figure.get_layout_engine().set(rect=(0, 0, 1, 1 - strip))
@@ -150,13 +150,13 @@ def _legend_on_top(figure, handles, texts):
 def _name_halves(figure, labels, colours):
     """Say which run is left and which right."""
     handles = [plt.Line2D([], [], color=colour, linewidth=5, solid_capstyle="butt") for colour in colours]
-    _legend_on_top(figure, handles, [f"{side}: {label}" for side, label in zip(("left", "right"), labels)])
+    legend_on_top(figure, handles, [f"{side}: {label}" for side, label in zip(("left", "right"), labels)])
 
 
 def _name_lines(figure, labels, colours):
     """Say which line is which run."""
     handles = [plt.Line2D([], [], color=colour, **line) for colour, line in zip(colours, style.LINES)]
-    _legend_on_top(figure, handles, labels)
+    legend_on_top(figure, handles, labels)
 
 
 def outlines(a, b, times, labels, colours):

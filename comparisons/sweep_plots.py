@@ -8,6 +8,7 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
 import numpy as np  # noqa: E402
 from matplotlib.ticker import NullFormatter, NullLocator  # noqa: E402
 
+from plots import legend_on_top  # noqa: E402
 from ranges import as_number  # noqa: E402
 
 #: Columns of sweep.csv that are drawn, with their titles; the first three make the heat maps.
@@ -119,9 +120,8 @@ def _legend(figure, engines, with_missing):
     if with_missing:
         handles.append(plt.Line2D([], [], color="#666666", marker="x", linestyle="", markersize=5))
         names.append("no such value, or no finished run")
-    strip = 0.36 / figure.get_figheight()
-    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - strip), **PADDING)
-    figure.legend(handles, names, loc="upper center", ncols=len(names), fontsize=10, borderaxespad=0.3)
+    legend_on_top(figure, handles, names)
+    figure.get_layout_engine().set(**PADDING)
 
 
 def maps(rows, key_x, key_y):

@@ -1,0 +1,175 @@
+#!/usr/bin/env python3
+"""`endoflow converge CASE.toml --epsilon 2.4,1.7,1.2,0.85 [-o DIR]`: the phase field's way to the sharp membrane as ε → 0.
+
+Runs the boundary-integral engine once and the phase-field engine for each ε, then writes metrics.json, converge.csv, plots and
+report.html. Exit codes: 0 done; 2 bad command line or parameter; 3 a run failed; 4 input or output; 130 or 143 interrupted (run
+it again to continue).
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
+
+from study_command import (  # noqa: E402  (lies beside this file)
+    RUN_FAILED,
+    add_run_options,
+    common_settings,
+    guarded,
+    lock,
+    output_directory,
+    program,
+    report_failures,
+    run_members,
+)
+
+
+def parsed(arguments):
+    """The command line as a namespace."""
+    parser = argparse.ArgumentParser(
+        prog="endoflow converge",
+        description="Compare phase-field runs of decreasing ε with the sharp membrane.",
+        allow_abbrev=False,
+        epilog="Finished runs are not repeated and interrupted ones are continued when the command is given again.",
+    )
+    add_run_options(parser, "converge")
+    parser.add_argument("--epsilon", metavar="E1,E2,...", required=True, help="values of phase_field.epsilon in nm")
+    parser.add_argument(
+        "--cells-per-epsilon", metavar="X", help="phase_field.cell_size = ε/X (default: the case's ratio)"
+    )
+    parser.add_argument("--times", metavar="T1,T2,...", help="times of the comparison in µs (default: four, evenly chosen)")
+    return parser.parse_args(arguments)
+
+
+def positive_numbers(text, option):
+    """The numbers of a comma list or range, all positive."""
+    from ranges import RangeError, as_number, parsed_values
+
+    numbers = [as_number(value) for value in parsed_values(text, f"{option} {text}")]
+    if any(number is None or number <= 0 for number in numbers):
+        raise RangeError(f"{option} {text}: positive numbers separated by commas are needed")
+    return numbers
+
+
+def study_members(options, output):
+    """(sharp Member, [phase-field Members] in order of decreasing ε), their parameters checked."""
+    from members import Member, resolved_parameters
+
+    base = common_settings(options)
+    case = resolved_parameters(program(), options.case, base)
+    own = case["phase_field"]
+    ratio = own["cell_size"] / own["epsilon"]
+    if options.cells_per_epsilon is not None:
+        ratio = 1 / positive_numbers(options.cells_per_epsilon, "--cells-per-epsilon")[0]
+    name = "boundary-integral"
+    sharp = Member(name, output / name, name, tuple(base), {}, case)
+    diffuse = []
+    for epsilon in sorted(positive_numbers(options.epsilon, "--epsilon"), reverse=True):
+        values = {"phase_field.epsilon": f"{epsilon:.12g}", "phase_field.cell_size": f"{ratio * epsilon:.12g}"}
+        settings = (*base, *(f"{key}={value}" for key, value in values.items()))
+        name = f"epsilon={epsilon:.12g}"
+        parameters = resolved_parameters(program(), options.case, settings)
+        diffuse.append(Member(name, output / name, "phase-field", settings, values, parameters))
+    return sharp, diffuse
+
+
+def loaded(members):
+    """(runs {name: endoflow.Run}, [problem]) of the members whose directories can be read and hold their parameters."""
+    import endoflow
+    from members import differing_parameters
+
+    runs, problems = {}, []
+    for member in members:
+        try:
+            run = endoflow.load(member.directory)
+        except endoflow.EndoflowError as error:
+            problems.append(f"{member.name} is left out: {error}")
+            continue
+        if differing_parameters(run.parameters, member.parameters, member.engine):
+            problems.append(f"{member.name} is left out: {member.directory} holds a run with other parameters")
+        else:
+            runs[member.name] = run
+    return runs, problems
+
+
+def write_results(sharp, diffuse, times, output):
+    """Write everything that is made from the members' runs; returns the metrics, None when there is nothing to compare."""
+    import study_plots
+    from convergence import DiffuseRun, study_metrics, table
+    from metrics import flat_parameters
+    from study_report import convergence_html
+    from sweep_table import write_table
+
+    runs, problems = loaded([sharp, *diffuse])
+    pairs = [(member, runs[member.name]) for member in diffuse if member.name in runs]
+    if sharp.name not in runs or not pairs:
+        return None
+    kept = [DiffuseRun(*(m.parameters["phase_field"][key] for key in ("epsilon", "cell_size")), run) for m, run in pairs]
+    metrics = study_metrics(runs[sharp.name], kept, times)
+    if not metrics["records"]:
+        return None
+    metrics["warnings"] = problems + metrics["warnings"]
+    (output / "metrics.json").write_text(json.dumps(metrics, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+    write_table(output / "converge.csv", table(metrics))
+    drawn = study_plots.write_all(runs[sharp.name], kept, metrics, output)
+    shared = {k: v for k, v in flat_parameters(sharp.parameters).items() if k not in diffuse[0].values}
+    case = sharp.parameters["case"]["name"]
+    (output / "report.html").write_text(convergence_html(metrics, case, shared, drawn, output), encoding="utf-8")
+    return metrics
+
+
+def summary_lines(metrics, output):
+    """What the terminal shows at the end, as a list of lines."""
+    last = metrics["times_us"][-1]
+    lines = []
+    for entry in metrics["orders"]:
+        if entry["time_us"] in (last, None):
+            spread = "" if entry["low"] is None else f"   95 %: {entry['low']:.2f} to {entry['high']:.2f}"
+            lines.append(f"order  {entry['quantity']:26} {entry['order']:6.2f}{spread}")
+    for entry in metrics["limits"]:
+        if entry["time_us"] in (last, None) and entry["value"] is not None and entry["sharp"] is not None:
+            value = f"{entry['value']:.6g} ± {entry['error']:.2g}"
+            lines.append(f"limit  {entry['quantity']:26} {value:>22}   sharp: {entry['sharp']:.6g}")
+    return [f"at {last:.4g} µs:", *lines, f"report {output / 'report.html'}"]
+
+
+def converge(options):
+    """Run the command; returns its exit code."""
+    import study_plots  # noqa: F401  (everything that needs matplotlib)
+    from member_runner import Interruption
+    from members import StudyError
+
+    output = output_directory(options, "converge")
+    times = sorted(positive_numbers(options.times, "--times")) if options.times else []
+    sharp, diffuse = study_members(options, output)
+    with lock(output):
+        with Interruption() as interruption:
+            outcomes = run_members([sharp, *diffuse], options, interruption)
+        if interruption.signal:
+            print("endoflow converge: interrupted; the same command continues", file=sys.stderr)
+            return 128 + interruption.signal
+        metrics = write_results(sharp, diffuse, times, output)
+        failed = report_failures("converge", outcomes)
+        if metrics is None:
+            what = "the runs above failed" if failed else "no run covers the times asked for; choose other --times"
+            raise StudyError(f"nothing to compare: {what}", RUN_FAILED if failed else 2)
+        for warning in metrics["warnings"]:
+            print(f"endoflow converge: warning: {warning}", file=sys.stderr)
+        print("\n".join(summary_lines(metrics, output)))
+        return RUN_FAILED if failed else 0
+
+
+def main(arguments):
+    """Run the command; returns its exit code."""
+    options = parsed(arguments)
+    return guarded("converge", lambda: converge(options))
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except KeyboardInterrupt:
+        sys.exit(130)
