@@ -27,6 +27,7 @@ int run(int argc, char** argv) {
                  "the molecules' mass is π patch_radius², not that of the initial profile, which is a little larger");
     if (!parse(app, argc, argv)) return 0;
     const Parameters parameters = read_case(case_file, overrides);
+    statics::require_stationary_model(parameters, request);
     if (!continuation.empty()) request.continuation = statics::parse_continuation(continuation, parameters);
     if (directory.empty()) directory = std::filesystem::path("out") / case_file.stem() / "statics";
 

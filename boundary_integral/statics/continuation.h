@@ -39,7 +39,7 @@ struct ContinuationSettings {
     double longest_step = 0.2;
     double shortest_step = 1e-5;
     int most_points = 1000;
-    double least_cosine = 0.98;  // of the angle between the tangents of neighbouring points
+    double least_cosine = 0.96;  // of the angle between the tangents of neighbouring points
 };
 
 struct Branch {

@@ -177,9 +177,9 @@ PiecewiseSolution LinearisedCollocation::tangent() const {
     unit.continuity = Eigen::MatrixXd::Zero(states_, static_cast<Eigen::Index>(elements_.size()));
     unit.conditions = Eigen::VectorXd::Zero(states_ + globals_);
     unit.branch = 1;
-    PiecewiseSolution direction = solve(unit), result = direction;
-    result.add(1 / std::sqrt(inner_product(direction, direction, problem_)) - 1, direction);
-    return result;
+    PiecewiseSolution direction = solve(unit);
+    direction.scale(1 / std::sqrt(inner_product(direction, direction, problem_)));
+    return direction;
 }
 
 }  // namespace endoflow::statics

@@ -35,7 +35,7 @@ std::optional<DampedStep> damped_step(const BoundaryValueProblem& problem, const
 
 BranchCondition parameter_condition(const PiecewiseSolution& guess, double value, const BoundaryValueProblem& problem) {
     BranchCondition condition{guess, guess, 0};
-    condition.normal.add(-1, guess);
+    condition.normal.scale(0);
     condition.normal.parameter = problem.parameter_scale;
     condition.origin.parameter = value;
     return condition;
@@ -56,9 +56,7 @@ std::optional<NewtonResult> solve_newton(const BoundaryValueProblem& problem, co
         result.solution = std::move(step->solution);
         const bool round_off = result.last_change < stagnation && step->size > 0.1 * result.last_change;
         if (step->damping == 1 && (step->size < converged || round_off)) {
-            const LinearisedCollocation final_system(problem, rule, result.solution, condition);
-            if (!final_system.usable()) return std::nullopt;
-            result.tangent = final_system.tangent();
+            result.tangent = linearised.tangent();
             ++result.iterations;
             return result;
         }

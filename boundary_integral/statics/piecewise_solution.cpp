@@ -55,6 +55,13 @@ void PiecewiseSolution::add(double factor, const PiecewiseSolution& direction) {
     parameter += factor * direction.parameter;
 }
 
+void PiecewiseSolution::scale(double factor) {
+    nodes *= factor;
+    for (auto& slope : slopes) slope *= factor;
+    globals *= factor;
+    parameter *= factor;
+}
+
 Eigen::VectorXd evaluate(const PiecewiseSolution& solution, const GaussRule& rule, double x) {
     const std::size_t i = solution.element_of(x);
     const double h = solution.width(i), xi = (x - solution.mesh[i]) / h;
@@ -133,7 +140,7 @@ double inner_product(const PiecewiseSolution& a, const PiecewiseSolution& b, con
 
 double largest_entry(const PiecewiseSolution& direction, const BoundaryValueProblem& problem) {
     const double states = (problem.state_scales.cwiseInverse().asDiagonal() * direction.nodes).cwiseAbs().maxCoeff();
-    const double globals = direction.globals.cwiseQuotient(problem.global_scales).cwiseAbs().maxCoeff();
+    const double globals = direction.globals.cwiseQuotient(problem.global_scales).lpNorm<Eigen::Infinity>();
     return std::max({states, globals, std::abs(direction.parameter) / problem.parameter_scale});
 }
 

@@ -24,6 +24,7 @@ struct PiecewiseSolution {
     [[nodiscard]] std::size_t element_of(double x) const;
     /// this += factor · direction; both on the same mesh.
     void add(double factor, const PiecewiseSolution& direction);
+    void scale(double factor);
 };
 
 /// y(x), (n), error O(h^(k+1)); at the mesh points the superconvergent values.

@@ -159,10 +159,13 @@ EngineIdentity identity() {
             1};
 }
 
-ExitReason simulate(const Parameters& parameters, const Request& request, RunOutput& output) {
+void require_stationary_model(const Parameters& parameters, const Request& request) {
+    (void)resolved(parameters, request);
     if (!parameters.membrane.inextensible)
-        throw InputError(
-            "membrane.inextensible = false: stationary shapes are computed for an inextensible membrane only");
+        throw InputError("membrane.inextensible = false: stationary shapes exist for an inextensible membrane only");
+}
+
+ExitReason simulate(const Parameters& parameters, const Request& request, RunOutput& output) {
     const Parameters solved = resolved(parameters, request);
     Search search;
     {

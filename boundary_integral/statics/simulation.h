@@ -20,11 +20,14 @@ struct Request {
 /// "molecules.patch_radius=30" as a continuation. Throws InputError: unknown key, one without influence, bad value.
 [[nodiscard]] Request::Continuation parse_continuation(const std::string& text, const Parameters& parameters);
 
+/// Throws InputError when the case has a membrane whose statics are not these: an extensible one; or a patch
+/// that is too small for the request.
+void require_stationary_model(const Parameters& parameters, const Request& request);
+
 [[nodiscard]] EngineIdentity identity();
 
 /// Writes the case's stationary shape or, with a continuation, the branch through it: one row of history.csv and one
-/// shape for each point, whose `time` is its number. Throws SolverError "no-stationary-state", InputError when the
-/// case has a membrane whose statics differ (extensible).
+/// shape for each point, whose `time` is its number. Throws SolverError "no-stationary-state".
 [[nodiscard]] ExitReason simulate(const Parameters& parameters, const Request& request, RunOutput& output);
 
 }  // namespace endoflow::statics

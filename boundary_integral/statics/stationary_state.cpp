@@ -62,6 +62,10 @@ bool neck_is_open(const BranchPoint& point) {
     return !neck_is_closed(point.solution);
 }
 
+bool before_fold(const BranchPoint& point) {
+    return point.folds_before == 0 && neck_is_open(point);
+}
+
 /// Quantities that stand for the whole shape, all of order one: area, height, apex moment.
 Eigen::Vector3d fingerprint(const PiecewiseSolution& solution, const BoundaryValueProblem& problem) {
     const double rim = solution.nodes(state::height, solution.nodes.cols() - 1);
@@ -93,15 +97,33 @@ std::string end_of_branch(const Branch& branch, const std::string& key, const st
                        branch.last.solution.parameter, unit);
 }
 
+/// The branch from the flat membrane, as long as `go_on` says so, and the state where it reaches the case.
+Search search_along(const Parameters& parameters, const Resolution& resolution, const Visitor& go_on) {
+    const double target = parameters.membrane.spontaneous_curvature;
+    const GaussRule rule(resolution.points);
+    const BoundaryValueProblem problem =
+        stationary_shapes(path_in_curvature(parameters), target, scale_of_curvature(parameters));
+    const auto start =
+        begin_branch(problem, rule, flat_guess(parameters, rule, problem.state_scales, resolution.elements), target);
+    Search search;
+    if (!start) return search;
+    if (target == 0)
+        search.branch = Branch{*start, {}, BranchEnd::reached_target};
+    else
+        search.branch = follow_branch(problem, rule, *start, target, {}, off_the_axis, go_on);
+    if (search.branch->end == BranchEnd::reached_target)
+        search.state = refined(problem, rule, parameters, search.branch->last);
+    return search;
+}
+
 /// Where the branch of smaller patches ends at the case's spontaneous curvature; empty when none was found.
 std::string end_in_patch_radius(const Parameters& parameters, const Resolution& resolution) {
     const double wanted = parameters.molecules.patch_radius;
     const ParameterPath path = path_in_patch_radius(parameters);
     for (double radius = 0.9 * wanted; radius > 0.3 * wanted; radius *= 0.9) {
-        const Search smaller = search_stationary_state(path(radius), resolution);
+        const Search smaller = search_along(path(radius), resolution, before_fold);
         if (!smaller.state) continue;
-        const auto branch = continue_state(
-            *smaller.state, path, radius, wanted, [](const BranchPoint&) { return true; }, resolution);
+        const auto branch = continue_state(*smaller.state, path, radius, wanted, before_fold, resolution);
         if (!branch) return "";
         return fmt::format(", and with growing patches {}", end_of_branch(*branch, "molecules.patch_radius", "nm"));
     }
@@ -111,22 +133,7 @@ std::string end_in_patch_radius(const Parameters& parameters, const Resolution& 
 }  // namespace
 
 Search search_stationary_state(const Parameters& parameters, const Resolution& resolution) {
-    const double target = parameters.membrane.spontaneous_curvature;
-    const GaussRule rule(resolution.points);
-    const BoundaryValueProblem problem =
-        stationary_shapes(path_in_curvature(parameters), target, scale_of_curvature(parameters));
-    const auto start =
-        begin_branch(problem, rule, flat_guess(parameters, rule, problem.state_scales, resolution.elements), target);
-    Search search;
-    if (!start) return search;
-    if (target == 0) {
-        search.branch = Branch{*start, {}, BranchEnd::reached_target};
-    } else {
-        search.branch = follow_branch(problem, rule, *start, target, {}, off_the_axis, neck_is_open);
-    }
-    if (search.branch->end == BranchEnd::reached_target)
-        search.state = refined(problem, rule, parameters, search.branch->last);
-    return search;
+    return search_along(parameters, resolution, neck_is_open);
 }
 
 bool neck_closes(const Branch& branch) {

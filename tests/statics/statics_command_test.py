@@ -1,0 +1,100 @@
+"""`endoflow statics` as a script sees it.
+
+    python3 statics_command_test.py PATH/TO/endoflow
+"""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+PROGRAM = None
+
+
+def endoflow(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+
+
+class Statics(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.root = Path(holder.name)
+        self.output = self.root / "statics"
+        self.case = self.root / "case.toml"
+        self.case.write_text("[molecules]\npatch_radius = 22\n")
+
+    def rows(self):
+        with open(self.output / "history.csv", encoding="utf-8", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def assert_refused(self, result, code, *words):
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def test_help(self):
+        result = endoflow("statics", "--help")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("--continue-in", result.stdout)
+
+    def test_a_state_is_a_complete_run(self):
+        result = endoflow("statics", self.case, "-o", self.output, "--disc-mass")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        record = json.loads((self.output / "run.json").read_text())
+        self.assertEqual((record["engine"], record["state"], record["exit_reason"]), ("statics", "finished", "done"))
+        self.assertAlmostEqual(record["notes"]["stationary_state"]["curve_length_nm"], 106.46513, delta=1e-4)
+        (row,) = self.rows()
+        self.assertAlmostEqual(float(row["neck_radius_nm"]), 13.383641, delta=1e-5)
+        self.assertEqual(float(row["time_us"]), 0)
+        with h5py.File(self.output / "shapes.h5") as file:
+            (shape,) = file["shapes"].values()
+            self.assertEqual(shape.attrs["time"], 0)
+            self.assertTrue((np.diff(shape["s"][:]) > 0).all())
+            self.assertEqual(np.abs(shape["u_r"][:]).max(), 0)
+        self.assertEqual(endoflow("summary", self.output).returncode, 0)
+
+    def test_a_branch(self):
+        result = endoflow("statics", self.case, "-o", self.output, "--set", "molecules.transport=advection",
+                          "--continue-in", "molecules.patch_radius=20")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = self.rows()
+        radii = [float(row["patch_radius_nm"]) for row in rows]
+        self.assertEqual((radii[0], radii[-1]), (22, 20))
+        self.assertEqual(radii, sorted(radii, reverse=True))
+        with h5py.File(self.output / "shapes.h5") as file:
+            self.assertEqual(len(file["shapes"]), len(rows))
+        branch = json.loads((self.output / "run.json").read_text())["notes"]["branch"]
+        self.assertEqual((branch["parameter"], branch["end"], branch["folds"]), ("molecules.patch_radius", 20, []))
+
+    def test_a_case_beyond_the_fold(self):
+        result = endoflow("statics", self.case, "-o", self.output, "--set", "molecules.patch_radius=26.5")
+        self.assert_refused(result, 3, "no-stationary-state", "molecules.patch_radius = 25.594")
+        self.assertEqual(json.loads((self.output / "run.json").read_text())["state"], "failed")
+
+    def test_bad_requests_write_nothing(self):
+        for request, words in (("molecules.patch_radius", "END"), ("molecules.patch_radius=x", "number"),
+                               ("molecules.patch_radius=90", "domain.radius"), ("molecules.patch_radius=22", "already"),
+                               ("molecules.patch_radios=30", "did you mean"), ("time.end=3", "can be continued in")):
+            with self.subTest(request):
+                result = endoflow("statics", self.case, "-o", self.output, "--continue-in", request)
+                self.assert_refused(result, 2, words)
+                self.assertFalse(self.output.exists())
+
+    def test_an_extensible_membrane_is_refused(self):
+        result = endoflow("statics", self.case, "-o", self.output, "--set", "membrane.inextensible=false")
+        self.assert_refused(result, 2, "membrane.inextensible")
+        self.assertFalse(self.output.exists())
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
