@@ -50,11 +50,14 @@ inline ProfileRelaxation profile_relaxation(const PhaseFieldPoint& phi, double r
     const LayerGeometry layer = layer_geometry(phi.r, phi.z, epsilon);
     const double x = (radius - r) / (2 * epsilon), wall = 1 - std::exp(-x * x);
     const double wall_r = -x / epsilon * std::exp(-x * x);
-    const double p = std::clamp(phi.value, -1.0, 1.0), tail = 1 - p * p * p * p;
+    constexpr double k = 0.1;
+    const double p = std::clamp(phi.value, -1.0, 1.0), tail = 1 - p * p * p * p, core = p * p / (p * p + k);
+    const double core_p = 2 * p * k / ((p * p + k) * (p * p + k)), layer_p = core_p * tail - 4 * p * p * p * core;
     const double along_normal = layer.normal_r * phi.r + layer.normal_z * phi.z;
     const double divergence = normal_divergence(phi, r, 1e-4 / epsilon);
-    const double derivative = -4 * p * p * p * along_normal * wall + tail * layer.normal_r * wall_r;
-    return {layer.normal_r, layer.normal_z, tail * wall, tail * wall * divergence + derivative};
+    const double weight = core * tail * wall;
+    const double derivative = layer_p * along_normal * wall + core * tail * layer.normal_r * wall_r;
+    return {layer.normal_r, layer.normal_z, weight, weight * divergence + derivative};
 }
 
 /// ν(φ) [pN µs/nm²]: ν₁ at φ = +1 (extracellular), ν₂ at φ = −1.

@@ -1,0 +1,81 @@
+// Time step control, joining of contour pieces, distance from the walls: parts without finite elements.
+
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "phasefield/contour/chain.h"
+#include "phasefield/evolution/clearance.h"
+#include "phasefield/evolution/step_control.h"
+#include "shared/support/error.h"
+
+using namespace endoflow;
+using namespace endoflow::phasefield;
+
+TEST_CASE("the step doubles every ramp_steps steps up to its limit", "[control]") {
+    Parameters p;
+    p.time.initial_step = 1e-5;
+    p.phase_field.ramp_steps = 3;
+    p.phase_field.max_step = 3.5e-5;
+    StepControl control(p);
+    for (int i = 0; i < 2; ++i) control.accept(control.nominal, 0);
+    CHECK(control.nominal == Approx(1e-5));
+    control.accept(control.nominal, 0);
+    CHECK(control.nominal == Approx(2e-5));
+    for (int i = 0; i < 3; ++i) control.accept(control.nominal, 0);
+    CHECK(control.nominal == Approx(3.5e-5));
+}
+
+TEST_CASE("a large motion shortens the step, a rejection halves it, and that ends in an error with a name",
+          "[control]") {
+    Parameters p;
+    p.phase_field.max_motion = 0.2;
+    StepControl control(p);
+    control.accept(1e-5, 0.32);  // twice what the safety factor 0.8 allows
+    CHECK(control.nominal == Approx(0.5e-5));
+    CHECK(control.too_far(0.21));
+    CHECK(control.too_far(std::numeric_limits<double>::quiet_NaN()));
+    control.reject(0.1);
+    CHECK(control.nominal == Approx(0.25e-5));
+    try {
+        for (int i = 0; i < 100; ++i) control.reject(0.1);
+        FAIL("no error");
+    } catch (const SolverError& error) {
+        CHECK(error.name() == "step-size-underflow");
+    }
+}
+
+TEST_CASE("a step ends at the deadline without a tiny last step", "[control]") {
+    Parameters p;
+    p.time.initial_step = 1e-3;
+    const StepControl control(p);
+    CHECK(control.step(0, 5e-3) == Approx(1e-3));
+    CHECK(control.step(0, 0.7e-3) == Approx(0.7e-3));
+    CHECK(control.step(0, 1.2e-3) == Approx(0.6e-3));
+}
+
+TEST_CASE("contour segments join to one chain whatever their order and direction", "[contour]") {
+    const auto point = [](double r, double z) { return ContourPoint{r, z, 0, 0, 0, 0, 0}; };
+    const std::vector<ContourSegment> segments = {{point(2, 0), point(1, 1e-10)},
+                                                  {point(0, 0), point(1, 0)},
+                                                  {point(3, 0), point(2, -1e-10)},
+                                                  {point(3, 0), point(3, 0)}};
+    const auto chains = join_segments(segments, 1e-7);
+    REQUIRE(chains.size() == 1);
+    CHECK(chains[0].size() == 4);
+    const auto thin = thin_out(chains[0], 1.5);
+    REQUIRE(thin.size() == 2);
+    CHECK(thin.back() == chains[0].back());
+}
+
+TEST_CASE("a membrane near a wall is an error; its rim is not", "[control]") {
+    Parameters p;
+    MembraneCurve curve;
+    for (int i = 0; i <= 160; ++i) {
+        curve.s.push_back(0.5 * i);
+        curve.r.push_back(0.5 * i);
+        curve.z.push_back(80);
+    }
+    CHECK_NOTHROW(require_clearance(curve, p, 0));
+    curve.z[3] = p.domain.height - 0.5 * p.domain.wall_clearance;
+    CHECK_THROWS_AS(require_clearance(curve, p, 0), SolverError);
+}

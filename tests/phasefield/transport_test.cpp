@@ -1,0 +1,80 @@
+// Conservation of molecules and membrane, transfer between meshes.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "phasefield/contour/contour.h"
+#include "phasefield/evolution/layer_integral.h"
+#include "phasefield/evolution/scheme.h"
+#include "shared/geometry/observables.h"
+#include "small_case.h"
+
+using namespace endoflow;
+using namespace endoflow::phasefield;
+
+namespace {
+
+double mass_drift(Transport transport) {
+    Parameters p = small_case();
+    p.molecules.transport = transport;
+    Discretization d(p, MPI_COMM_SELF);
+    State state = initial_state(d);
+    const double before = integrate_layer(d.spaces, state, p).molecules;
+    for (int step = 0; step < 3; ++step) state = advance(d, state, 1e-4);
+    return integrate_layer(d.spaces, state, p).molecules / before - 1;
+}
+
+}  // namespace
+
+TEST_CASE("every law of transport conserves the molecules to round-off", "[transport]") {
+    // Σ over ~1e4 unknowns of a solution accurate to 1e-11
+    CHECK(std::abs(mass_drift(Transport::cahn_hilliard)) < 1e-10);
+    CHECK(std::abs(mass_drift(Transport::fickian)) < 1e-10);
+    CHECK(std::abs(mass_drift(Transport::advection)) < 1e-10);
+}
+
+TEST_CASE("the initial layer has the membrane's area and the patch's molecules", "[transport]") {
+    const Parameters p = small_case();
+    Discretization d(p, MPI_COMM_SELF);
+    const State state = initial_state(d);
+    const auto layer = integrate_layer(d.spaces, state, p);
+    CHECK(layer.area == Approx(M_PI * 1600).epsilon(1e-4));  // |φ| < 1 − 2e-5 at the bottom and the top
+    const auto observables = measure(extract_contour(d.spaces, state, p).curve, BendingModel(p.membrane));
+    CHECK(layer.molecules == Approx(observables.molecule_mass).epsilon(1e-4));
+}
+
+TEST_CASE("stretching is conserved but for what flows in at the rim", "[transport]") {
+    const Parameters p = small_case();
+    Discretization d(p, MPI_COMM_SELF);
+    State state = initial_state(d);
+    const double before = integrate_layer(d.spaces, state, p).stretching;
+    const double tau = 1e-4;
+    state = advance(d, state, tau);
+    const double after = integrate_layer(d.spaces, state, p).stretching;
+    // The inflow is −2πR ∫ ½|∇φ| u_r dz on r = R, and u_r is nearly constant across the layer.
+    const auto curve = extract_contour(d.spaces, state, p).curve;
+    const double inflow = -2 * M_PI * p.domain.radius * curve.u_r.back() * tau;
+    CHECK(after - before == Approx(inflow).epsilon(0.1));
+    CHECK(after != before);
+}
+
+TEST_CASE("adapting the mesh leaves the layer as it is", "[transport]") {
+    const Parameters p = small_case();
+    Discretization d(p, MPI_COMM_SELF);
+    State state = initial_state(d);
+    for (int step = 0; step < 2; ++step) state = advance(d, state, 1e-4);
+    const auto before = integrate_layer(d.spaces, state, p);
+    const auto contour = extract_contour(d.spaces, state, p);
+    const auto cells = d.mesh->n_global_active_cells();
+    auto shifted = positions(contour.curve);
+    for (auto& point : shifted) point.z += 2.5;  // the band moves up by one cell
+    REQUIRE(adapt(d, state, shifted));
+    CHECK(d.mesh->n_global_active_cells() >= cells);
+    const auto after = integrate_layer(d.spaces, state, p);
+    CHECK(after.molecules == Approx(before.molecules).epsilon(1e-13));
+    CHECK(after.stretching == Approx(before.stretching).epsilon(1e-13));
+    const auto again = extract_contour(d.spaces, state, p);
+    REQUIRE(again.curve.size() == contour.curve.size());
+    for (std::size_t i = 0; i < again.curve.size(); ++i)
+        REQUIRE(again.curve.z[i] == Approx(contour.curve.z[i]).margin(1e-9));
+}
