@@ -208,6 +208,8 @@ std::vector<ParameterRow> boundary_integral_rows() {
             "number of spline elements along the membrane"),
         row("boundary_integral", "quadrature_order", &P::boundary_integral, &S::quadrature_order, "", at_least(4, 20),
             "", "Gauss points per element"),
+        row("boundary_integral", "threads", &P::boundary_integral, &S::threads, "", at_least(0, 256), "",
+            "threads that share the work; 0 = one per core"),
         row("boundary_integral", "mesh_curvature_length", &P::boundary_integral, &S::mesh_curvature_length, "nm",
             at_least(0, 1e3), "", "elements get short where the curvature exceeds the inverse of this"),
         row("boundary_integral", "mesh_edge_weight", &P::boundary_integral, &S::mesh_edge_weight, "", at_least(0, 20),

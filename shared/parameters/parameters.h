@@ -56,11 +56,11 @@ struct MoleculeParameters {
 struct PhaseFieldParameters {
     PhaseFieldScheme scheme = PhaseFieldScheme::paper;
     double epsilon = 1.2;
-    double mobility = 6.4e-6;
+    double mobility = 0.0064;
     double tension_extension = 0.390625;
     double stretching_relaxation = 0.05;
     double stretching_diffusivity = 16;
-    double profile_mobility = 0;
+    double profile_mobility = 600;
     double advection_centering = 0.5;
     double force_centering = 1;
     ViscosityMean viscosity_mean = ViscosityMean::arithmetic;
@@ -71,14 +71,15 @@ struct PhaseFieldParameters {
     int velocity_degree = 3;
     int tension_degree = 2;
     int surface_degree = 3;
-    int ramp_steps = 30;
+    int ramp_steps = 10;
     double max_step = 2e-3;
-    double max_motion = 0.2;
+    double max_motion = 0.3;
 };
 
 struct BoundaryIntegralParameters {
     int elements = 80;
     int quadrature_order = 8;
+    int threads = 0;
     double mesh_curvature_length = 8;
     double mesh_edge_weight = 4;
     double mesh_smoothing = 0.05;
