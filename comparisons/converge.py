@@ -40,7 +40,9 @@ def parsed(arguments):
     parser.add_argument(
         "--cells-per-epsilon", metavar="X", help="phase_field.cell_size = ε/X (default: the case's ratio)"
     )
-    parser.add_argument("--times", metavar="T1,T2,...", help="times of the comparison in µs (default: four, evenly chosen)")
+    parser.add_argument(
+        "--times", metavar="T1,T2,...", help="times of the comparison in µs (default: four, evenly chosen)"
+    )
     return parser.parse_args(arguments)
 
 
@@ -107,7 +109,9 @@ def write_results(sharp, diffuse, times, output):
     pairs = [(member, runs[member.name]) for member in diffuse if member.name in runs]
     if sharp.name not in runs or not pairs:
         return None
-    kept = [DiffuseRun(*(m.parameters["phase_field"][key] for key in ("epsilon", "cell_size")), run) for m, run in pairs]
+    kept = [
+        DiffuseRun(*(m.parameters["phase_field"][key] for key in ("epsilon", "cell_size")), run) for m, run in pairs
+    ]
     metrics = study_metrics(runs[sharp.name], kept, times)
     if not metrics["records"]:
         return None
@@ -138,13 +142,14 @@ def summary_lines(metrics, output):
 
 def converge(options):
     """Run the command; returns its exit code."""
-    import study_plots  # noqa: F401  (everything that needs matplotlib)
     from member_runner import Interruption
     from members import StudyError
 
     output = output_directory(options, "converge")
     times = sorted(positive_numbers(options.times, "--times")) if options.times else []
     sharp, diffuse = study_members(options, output)
+    import study_plots  # noqa: F401  (before the runs, so that a missing matplotlib does not come to light after them)
+
     with lock(output):
         with Interruption() as interruption:
             outcomes = run_members([sharp, *diffuse], options, interruption)

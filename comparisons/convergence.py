@@ -58,7 +58,7 @@ def study_metrics(sharp, diffuse, wanted_times=()):
     return {
         "schema_version": SCHEMA_VERSION,
         "study": "converge",
-        "sharp": describe(sharp, "boundary integral"),
+        "sharp": {"wall_s": sharp.record.get("wall_s"), **describe(sharp, "boundary integral")},
         "runs": [described(one) for one in diffuse],
         "times_us": times,
         "records": records,

@@ -113,9 +113,7 @@ def differing_parameters(found, wanted, engine):
     return [
         key
         for key in dict.fromkeys([*found, *wanted])
-        if found.get(key) != wanted.get(key)
-        and key not in WITHOUT_EFFECT
-        and not key.startswith(OTHER_SECTION[engine])
+        if found.get(key) != wanted.get(key) and key not in WITHOUT_EFFECT and not key.startswith(OTHER_SECTION[engine])
     ]
 
 

@@ -39,10 +39,16 @@ def write_all(a, b, metrics, labels, directory):
         title = "Both membranes at the times of the paper's Fig. 4"
         figures["membranes_paper_times"] = (title, membranes(a, b, style.PAPER_TIMES, labels, colours))
     for name, (_, figure) in figures.items():
-        figure.savefig(directory / f"{name}.png")
-        figure.savefig(directory / f"{name}.svg", metadata={"Date": None})
-        plt.close(figure)
+        save(figure, directory, name)
     return {name: title for name, (title, _) in figures.items()}
+
+
+def save(figure, directory, name):
+    """Write a figure as directory/name.png and .svg and close it."""
+    figure.savefig(directory / f"{name}.png")
+    figure.set_layout_engine("none")  # keeps the layout just made
+    figure.savefig(directory / f"{name}.svg", metadata={"Date": None})
+    plt.close(figure)
 
 
 def covers_paper_times(metrics):

@@ -11,7 +11,7 @@ from matplotlib.ticker import LogLocator, NullFormatter, NullLocator  # noqa: E4
 
 from convergence import BUDDING, DISTANCES, PAIRS, at_time, error_of, value_of  # noqa: E402
 from endoflow.curves import resample  # noqa: E402
-from plots import DRAWN_SPACING, legend_on_top, vertical_range  # noqa: E402
+from plots import DRAWN_SPACING, legend_on_top, save, vertical_range  # noqa: E402
 
 #: Titles of the quantities: name and unit.
 TITLES = {
@@ -26,7 +26,14 @@ TITLES = {
 }
 
 #: Histories shown for all runs.
-HISTORIES = ("neck_radius_nm", "bud_diameter_nm", "bud_height_nm", "membrane_area_nm2", "bending_energy_pN_nm", "area_strain_max")
+HISTORIES = (
+    "neck_radius_nm",
+    "bud_diameter_nm",
+    "bud_height_nm",
+    "membrane_area_nm2",
+    "bending_energy_pN_nm",
+    "area_strain_max",
+)
 
 #: Colour of the sharp run, and colour maps from the largest to the smallest ε and from the first to the last time.
 SHARP = style.ENGINE_COLOURS["boundary-integral"][0]
@@ -46,9 +53,7 @@ def write_all(sharp, diffuse, metrics, directory):
         "histories": ("Histories", histories(sharp, diffuse)),
     }
     for name, (_, figure) in figures.items():
-        figure.savefig(directory / f"{name}.png")
-        figure.savefig(directory / f"{name}.svg", metadata={"Date": None})
-        plt.close(figure)
+        save(figure, directory, name)
     return {name: title for name, (title, _) in figures.items()}
 
 

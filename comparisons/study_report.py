@@ -33,9 +33,9 @@ def convergence_html(metrics, case_name, parameters, drawn, directory):
     """
     epsilons = ", ".join(f"{run['epsilon_nm']:g}" for run in metrics["runs"])
     sections = [
-        ("Orders", orders_table(metrics)),
+        ("Plots", "".join(report.plot(directory / f"{name}.svg", title) for name, title in drawn.items())),
+        ("Fitted orders", orders_table(metrics)),
         ("Limits for ε → 0", LIMITS_NOTE + limits_table(metrics)),
-        *((title, report.plot(directory / f"{name}.svg", title)) for name, title in drawn.items()),
         ("Distances and errors", records_table(metrics)),
         ("Runs", runs_table(metrics)),
         ("Parameters of the case", parameters_table(parameters)),
@@ -65,7 +65,8 @@ def cards(metrics):
     for name in DISTANCES:
         entry = entry_of(metrics["orders"], name, last)
         if entry is not None:
-            found.append((f"Order, {TITLES[name].split(' (')[0].lower()}", figures(entry["order"], 3), interval(entry)))
+            title = TITLES[name].split(" (")[0]
+            found.append((f"{title}: order", figures(entry["order"], 3), f"at {last:.4g} µs, {interval(entry)}"))
     smallest = metrics["records"][-1]
     title = f"Mean distance, ε = {smallest['epsilon_nm']:g} nm"
     found.append((title, quantity(smallest["mean_distance_nm"], 3, "nm"), f"at {smallest['time_us']:.4g} µs"))
@@ -73,7 +74,7 @@ def cards(metrics):
     sharp = metrics["sharp"]["budding_time_us"]
     found.append(("Budding, sharp", quantity(sharp, 4, "µs"), "neck radius below 5 nm"))
     if budding is not None and budding["value"] is not None:
-        found.append(("Budding, ε → 0", quantity(budding["value"], 4, "µs"), f"± {budding['error']:.2g} µs"))
+        found.append(("Budding, ε → 0", quantity(budding["value"], 4, "µs"), f"± {figures(budding['error'], 2)} µs"))
     return found
 
 
@@ -84,7 +85,7 @@ def entry_of(entries, name, time):
 
 def interval(entry):
     """The 95 % interval of an order in words."""
-    return "two points, no interval" if entry["low"] is None else f"95 %: {entry['low']:.2f} … {entry['high']:.2f}"
+    return "from two ε" if entry["low"] is None else f"95 %: {entry['low']:.2f} … {entry['high']:.2f}"
 
 
 def orders_table(metrics):
@@ -94,7 +95,7 @@ def orders_table(metrics):
             "",
             [
                 escaped(TITLES[e["quantity"]].split(" (")[0]),
-                figures(e["time_us"]),
+                setting(e["time_us"], 4),
                 figures(e["order"], 3),
                 "–" if e["low"] is None else f"{e['low']:.2f} … {e['high']:.2f}",
                 ", ".join(f"{value:.2f}" for value in e["local"]),
@@ -109,11 +110,15 @@ def limits_table(metrics):
     """Extrapolated values beside the sharp ones."""
     rows = []
     for e in metrics["limits"]:
-        value = f"{figures(e['value'], 5)} ± {e['error']:.2g}" if e["value"] is not None else escaped(e["reason"])
+        value = (
+            f"{figures(e['value'], 5)} ± {figures(e['error'], 2)}" if e["value"] is not None else escaped(e["reason"])
+        )
         inside = e["difference"] is not None and abs(e["difference"]) <= e["error"]
         verdict = "–" if e["difference"] is None else "yes" if inside else "no"
-        cells = [escaped(TITLES[e["quantity"]]), figures(e["time_us"]), value, figures(e["order"], 3)]
-        rows.append(("", [*cells, figures(e["sharp"], 5), figures(e["difference"], 3), verdict]))
+        cells = [escaped(TITLES[e["quantity"]]), setting(e["time_us"], 4), value, figures(e["order"], 3)]
+        rows.append(
+            ("", [*cells, "0" if e["sharp"] == 0 else figures(e["sharp"], 5), figures(e["difference"], 3), verdict])
+        )
     heads = ["", "t (µs)", "limit", "p", "sharp", "limit − sharp", "within its error"]
     return report.table(heads, rows)
 
@@ -123,10 +128,8 @@ def records_table(metrics):
     pairs = ("neck_radius_nm", "membrane_area_nm2", "volume_extracellular_nm3", "bending_energy_pN_nm")
     rows = []
     for r in metrics["records"]:
-        cells = [figures(r["time_us"]), f"{r['epsilon_nm']:g}", *(figures(r[name], 3) for name in DISTANCES)]
-        cells += [
-            f"{figures(r[name]['b'], 5)}<br><small>{signed(r[name]['difference'])}</small>" for name in pairs
-        ]
+        cells = [setting(r["time_us"], 4), f"{r['epsilon_nm']:g}", *(figures(r[name], 3) for name in DISTANCES)]
+        cells += [f"{figures(r[name]['b'], 5)}<br><small>{signed(r[name]['difference'])}</small>" for name in pairs]
         rows.append(("", cells))
     heads = ["t (µs)", "ε (nm)", *(TITLES[name] for name in DISTANCES), *(TITLES[name] for name in pairs)]
     note = '<p class="note">Small: difference from the sharp run.</p>'
@@ -135,14 +138,19 @@ def records_table(metrics):
 
 def signed(value):
     """A difference with its sign."""
-    return "–" if value is None else f"{value:+.3g}".replace("-", "−")
+    return "–" if value is None else ("+" if value > 0 else "") + figures(value, 3)
 
 
 def runs_table(metrics):
     """The runs: resolution, state, cost."""
     rows = []
     for run in [metrics["sharp"], *metrics["runs"]]:
-        cells = [escaped(run["label"]), setting(run.get("cell_size_nm"), 4), setting(run["state"]), setting(run["exit_reason"])]
+        cells = [
+            escaped(run["label"]),
+            setting(run.get("cell_size_nm"), 4),
+            setting(run["state"]),
+            setting(run["exit_reason"]),
+        ]
         cells += [figures(run["end_us"]), figures(run["budding_time_us"]), figures(run.get("wall_s"), 3)]
         rows.append(("", [*cells, f"<code>{escaped(run['directory'])}</code>"]))
     heads = ["", "cells (nm)", "state", "ended with", "end (µs)", "budding (µs)", "wall (s)", "directory"]

@@ -43,7 +43,9 @@ def parsed(arguments):
     )
     parser.add_argument("--engine", required=True, choices=("boundary-integral", "phase-field", "both"))
     what = parser.add_mutually_exclusive_group()
-    what.add_argument("--slurm", action="store_true", help="write DIR/sweep.sbatch for the unfinished runs; run nothing")
+    what.add_argument(
+        "--slurm", action="store_true", help="write DIR/sweep.sbatch for the unfinished runs; run nothing"
+    )
     what.add_argument("--collect", action="store_true", help="make the table and plots of what is there; run nothing")
     return parser.parse_args(arguments)
 
@@ -104,11 +106,12 @@ def summary_lines(rows, drawn, output):
 
 def sweep(options):
     """Run the command; returns its exit code."""
-    import sweep_plots
     from member_runner import Interruption
 
     output = output_directory(options, "sweep")
     members = sweep_members(options, output)
+    import sweep_plots  # before the runs, so that a missing matplotlib does not come to light after them
+
     with lock(output):
         if options.slurm:
             print(write_slurm(members, options, output))

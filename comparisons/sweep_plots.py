@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
 import numpy as np  # noqa: E402
 from matplotlib.ticker import NullFormatter, NullLocator  # noqa: E402
 
-from plots import legend_on_top  # noqa: E402
+from plots import legend_on_top, save  # noqa: E402
 from ranges import as_number  # noqa: E402
 
 #: Columns of sweep.csv that are drawn, with their titles; the first three make the heat maps.
@@ -46,9 +46,7 @@ def write_all(rows, keys, directory):
         title, figure = f"Results over {keys[0]} and {keys[1]}", maps(rows, *keys)
     else:
         return {}
-    figure.savefig(directory / "sweep.png")
-    figure.savefig(directory / "sweep.svg", metadata={"Date": None})
-    plt.close(figure)
+    save(figure, directory, "sweep")
     return {"sweep": title}
 
 

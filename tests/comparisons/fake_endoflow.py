@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""Stands in for the program `endoflow`: `check` and `run` as the real ones behave, with a membrane known in closed form.
+
+Settings steer it: a patch radius of 13 or an ε of 0.7 makes `run` fail as a solver does, the case.name "slow" makes it run until
+a signal and end with a checkpoint. A molecules.patch_radius above 1000 and unknown keys are refused. Every run appends a line to
+runs.log in the working directory, where defaults.json holds the parameters.
+"""
+
+import json
+import signal
+import sys
+import time
+from pathlib import Path
+
+
+def fail(message, code):
+    print(f"endoflow: {message}", file=sys.stderr)
+    sys.exit(code)
+
+
+def options(arguments):
+    """(words, settings, output, flags) of a command line."""
+    words, settings, output, flags = [], [], None, []
+    rest = iter(arguments)
+    for word in rest:
+        if word == "--set":
+            settings.append(next(rest))
+        elif word == "-o":
+            output = Path(next(rest))
+        elif word.startswith("--"):
+            flags.append(word)
+        else:
+            words.append(word)
+    return words, settings, output, flags
+
+
+def resolved(case, settings):
+    """The parameters of a case, which is a file with one setting in each line."""
+    if not Path(case).is_file():
+        fail(f"{case}: no such case file; give the path of a TOML file", 2)
+    parameters = json.loads(Path("defaults.json").read_text())
+    for setting in [*Path(case).read_text().split(), *settings]:
+        key, _, text = setting.partition("=")
+        section, name = key.split(".")
+        if name not in parameters.get(section, {}):
+            fail(f"--set {setting}: unknown key {key}", 2)
+        parameters[section][name] = text if isinstance(parameters[section][name], str) else float(text)
+    if parameters["molecules"]["patch_radius"] > 1000:
+        fail("molecules.patch_radius: must be at most 1000", 2)
+    return parameters
+
+
+def run(engine, case, settings, output, restart):
+    """Write a run directory."""
+    parameters = resolved(case, settings)
+    with open("runs.log", "a", encoding="utf-8") as file:
+        file.write(f"{output} {'restart' if restart else 'fresh'}\n")
+    name, patch_radius = parameters["case"]["name"], parameters["molecules"]["patch_radius"]
+    epsilon = parameters["phase_field"]["epsilon"]
+    if patch_radius == 13 or epsilon == 0.7:
+        fail("step-underflow: the step became too small; lower time.tolerance", 3)
+
+    import locations  # noqa: F401
+    import synthetic
+
+    end = parameters["time"]["end"]
+    offset = 0.2 * epsilon**2 if engine == "phase-field" else 0.0
+    times = [0.25 * end * i for i in range(5)]
+    slow = name == "slow" and not restart
+    signal.signal(signal.SIGINT, lambda *_: None)
+    synthetic.write_run(output, engine, lambda t: synthetic.budding_membrane(t, 1.0, offset), times, 400, parameters)
+    (output / "checkpoint").mkdir(exist_ok=True)
+    (output / "checkpoint" / "state.h5").write_text("")
+    if slow:
+        note(output, "running")
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        (output / "ready").write_text("")
+        signal.sigtimedwait({signal.SIGINT}, 30)
+        time.sleep(0.2)
+        note(output, "interrupted")
+        sys.exit(130)
+
+
+def note(output, state):
+    """Change the state in run.json."""
+    record = json.loads((output / "run.json").read_text())
+    (output / "run.json").write_text(json.dumps({**record, "state": state, "exit_reason": state}))
+
+
+def main():
+    words, settings, output, flags = options(sys.argv[1:])
+    if words[0] == "check":
+        print(json.dumps(resolved(words[1], settings)))
+    else:
+        run(words[1], words[2], settings, output, "--restart" in flags)
+
+
+main()

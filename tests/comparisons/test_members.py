@@ -1,0 +1,145 @@
+"""Members of a study: names, what is left to do, command lines, shares of the cores; the Slurm script under a real bash."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import locations  # noqa: F401
+import synthetic
+from studies import StudyTest
+
+from member_runner import shares
+from members import CONTINUE, FINISHED, FRESH, Member, directory_name, run_command, work_left
+from progress import duration, remaining
+
+
+class Names(unittest.TestCase):
+    def test_directories(self):
+        self.assertEqual(directory_name({"a.x": "36", "b.y": "1e-05"}), "x=36/y=1e-05")
+        self.assertEqual(directory_name({"a.x": "1", "b.x": "2"}), "a.x=1/b.x=2")
+        self.assertEqual(directory_name({"a.x": "../b c"}), "x=.._b_c")
+
+
+class Work(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.directory = Path(scratch.name)
+
+    def left(self, state="finished", reason="done", checkpoint=True, engine="phase-field", **changes):
+        record = {"engine": "phase-field", "state": state, "exit_reason": reason, "parameters": synthetic.parameters()}
+        (self.directory / "run.json").write_text(json.dumps(record))
+        (self.directory / "checkpoint").mkdir(exist_ok=True)
+        (self.directory / "checkpoint" / "state.h5").unlink(missing_ok=True)
+        if checkpoint:
+            (self.directory / "checkpoint" / "state.h5").write_text("")
+        return work_left(Member("m", self.directory, engine, (), {}, synthetic.parameters(**changes)))
+
+    def test_states(self):
+        self.assertEqual(self.left(), FINISHED)
+        self.assertEqual(self.left("interrupted"), CONTINUE)
+        self.assertEqual(self.left("interrupted", checkpoint=False), FRESH)
+        self.assertEqual(self.left("running", None), CONTINUE)  # its process was killed
+        self.assertEqual(self.left("failed", "step-underflow"), FRESH)
+
+    def test_parameters(self):
+        self.assertEqual(self.left(phase_field__epsilon=2.0), FRESH)
+        self.assertEqual(self.left(boundary_integral__elements=99), FINISHED)
+        self.assertEqual(self.left("interrupted", molecules__patch_radius=20.0), FRESH)
+        self.assertEqual(self.left(engine="boundary-integral"), FRESH)
+
+    def test_another_end(self):
+        self.assertEqual(self.left(time__end=2.0), CONTINUE)
+        self.assertEqual(self.left(time__end=2.0, checkpoint=False), FRESH)
+        self.assertEqual(self.left(reason="neck-closed", time__end=2.0), FRESH)
+        self.assertEqual(self.left(time__end=0.5), FRESH)
+
+    def test_no_run(self):
+        self.assertEqual(work_left(Member("m", self.directory / "no", "phase-field", (), {}, {})), FRESH)
+        (self.directory / "run.json").write_text("half a rec")
+        self.assertEqual(work_left(Member("m", self.directory, "phase-field", (), {}, {})), FRESH)
+
+    def test_command_line(self):
+        diffuse = Member("m", Path("d"), "phase-field", ("a.b=1",), {}, {})
+        sharp = Member("m", Path("d"), "boundary-integral", (), {}, {})
+        run = ["e", "run", "phase-field", "c", "--set", "a.b=1", "-o", "d"]
+        self.assertEqual(run_command("e", "c", diffuse, FRESH), run)
+        self.assertEqual(run_command("e", "c", diffuse, CONTINUE, 4), ["mpirun", "-n", "4", *run, "--restart"])
+        self.assertEqual(run_command("e", "c", sharp, FRESH, 4)[0], "e")
+
+
+class Parallel(unittest.TestCase):
+    def test_no_more_threads_than_cores(self):
+        self.assertEqual(shares(8, None, 1), (8, 1))
+        self.assertEqual(shares(8, 3, 1), (3, 2))
+        self.assertEqual(shares(8, 100, 2), (4, 1))
+        self.assertEqual(shares(2, 1, 4), (1, 1))
+        for cores in range(1, 20):
+            for jobs in range(1, 20):
+                for processes in range(1, cores + 1):
+                    parallel, threads = shares(cores, jobs, processes)
+                    self.assertLessEqual(parallel * threads * processes, cores)
+
+    def test_time_left(self):
+        self.assertIsNone(remaining([(5.0, 0.0)], 3, []))
+        self.assertAlmostEqual(remaining([(5.0, 0.25)], 2, []), 15 + 2 * 20)
+        self.assertAlmostEqual(remaining([(1.0, 0.0)], 1, [4.0, 6.0]), 4 + 5)
+        self.assertEqual([duration(s) for s in (5, 200, 7200)], ["5 s", "3 min", "2.0 h"])
+
+
+class Slurm(StudyTest):
+    SWEEP = ("case.toml", "--vary", "molecules.patch_radius=20,30", "--engine", "phase-field", "-o", "a dir")
+
+    def task(self, number):
+        """Run one task of the array as Slurm would; mpirun is a stand-in that drops its own options."""
+        tools = self.scratch / "tools"
+        tools.mkdir(exist_ok=True)
+        (tools / "mpirun").write_text('#!/bin/sh\necho "mpirun $1 $2"\nshift 2\nexec "$@"\n')
+        (tools / "mpirun").chmod(0o755)
+        path = f"{tools}:{os.environ['PATH']}"
+        return subprocess.run(
+            ["bash", str(self.scratch / "a dir" / "sweep.sbatch")],
+            cwd=self.scratch,
+            env={**os.environ, "SLURM_ARRAY_TASK_ID": str(number), "PATH": path},
+            capture_output=True,
+            text=True,
+            timeout=30,
+        )
+
+    def test_script(self):
+        process = self.call("sweep", *self.SWEEP, "--slurm", "--processes", "3", "--jobs", "5")
+        self.assertEqual((process.returncode, process.stderr, self.runs()), (0, "", []))
+        script = self.scratch / "a dir" / "sweep.sbatch"
+        subprocess.run(["bash", "-n", str(script)], check=True)
+        text = script.read_text()
+        self.assertIn("#SBATCH --array=0-1%5\n", text)
+        self.assertIn("#SBATCH --ntasks=3\n", text)
+        self.assertIn(
+            "1) run fresh 'a dir/patch_radius=30/phase-field' mpirun -n 3 \"$endoflow\" run phase-field case.toml"
+            " --set molecules.patch_radius=30 -o 'a dir/patch_radius=30/phase-field' ;;",
+            text,
+        )
+
+    def test_tasks_run_are_left_out_when_finished_and_are_collected(self):
+        self.call("sweep", *self.SWEEP, "--slurm", "--processes", "2")
+        for number in (0, 1):
+            task = self.task(number)
+            self.assertEqual((task.returncode, task.stdout, task.stderr), (0, "mpirun -n 2\n", ""))
+        self.assertEqual(self.runs(), [f"a dir/patch_radius={p}/phase-field fresh" for p in (20, 30)])
+        self.assertIn("finished already", self.task(0).stdout)
+        record = self.scratch / "a dir/patch_radius=30/phase-field/run.json"
+        record.write_text(record.read_text().replace('"state": "finished"', '"state": "interrupted"'))
+        self.task(1)
+        self.assertEqual(self.runs(), ["a dir/patch_radius=30/phase-field restart"])
+        self.assertEqual(self.task(7).returncode, 2)
+        self.assertEqual(self.call("sweep", *self.SWEEP, "--collect").returncode, 0)
+        self.assertEqual((self.scratch / "a dir/sweep.csv").read_text().count("finished"), 2)
+        self.assertIn("nothing to submit", self.call("sweep", *self.SWEEP, "--slurm").stdout)
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())

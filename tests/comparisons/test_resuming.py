@@ -1,0 +1,68 @@
+"""What `endoflow sweep` runs again, continues, leaves out; failures and Ctrl-C."""
+
+import signal
+import time
+import unittest
+
+import locations  # noqa: F401
+from studies import BOUNDARY_INTEGRAL, PATCHES, SweepTest
+
+
+class Resuming(SweepTest):
+    def test_finished_runs_are_not_repeated(self):
+        self.sweep("--vary", PATCHES, *BOUNDARY_INTEGRAL, "-o", "s")
+        self.assertEqual(len(self.runs()), 3)
+        process = self.sweep("--vary", "molecules.patch_radius=20,30,40,60", *BOUNDARY_INTEGRAL, "-o", "s")
+        self.assertEqual(self.runs(), ["s/patch_radius=30/boundary-integral fresh"])
+        self.assertIn("3 finished before", process.stdout)
+        self.sweep(
+            "--vary", PATCHES, *BOUNDARY_INTEGRAL, "-o", "s", "--set", "phase_field.epsilon=2"
+        )  # not its engine's
+        self.assertEqual(self.runs(), [])
+        self.sweep("--vary", PATCHES, *BOUNDARY_INTEGRAL, "-o", "s", "--set", "fluid.viscosity_intracellular=0.02")
+        self.assertEqual([line.split()[1] for line in self.runs()], ["fresh"] * 3)
+
+    def test_a_later_end_continues(self):
+        self.sweep("--vary", "molecules.patch_radius=20", *BOUNDARY_INTEGRAL, "-o", "s", "--until", "0.5")
+        self.runs()
+        self.sweep("--vary", "molecules.patch_radius=20", *BOUNDARY_INTEGRAL, "-o", "s", "--until", "1")
+        self.assertEqual(self.runs(), ["s/patch_radius=20/boundary-integral restart"])
+
+    def test_one_failure_does_not_stop_the_others(self):
+        process = self.sweep("--vary", "molecules.patch_radius=13,20,40", *BOUNDARY_INTEGRAL, "--jobs", "1")
+        self.assert_one_line(process, 3, "patch_radius=13/boundary-integral: step-underflow: the step became too small")
+        self.assertEqual([row["state"] for row in self.rows()], ["failed", "finished", "finished"])
+        self.assertIn("step-underflow", self.rows()[0]["exit_reason"])
+        self.assertEqual(self.rows()[0]["neck_radius_nm"], "")
+        self.assertIn("1 failed", process.stdout)
+        self.runs()
+        self.sweep("--vary", "molecules.patch_radius=13,20,40", *BOUNDARY_INTEGRAL)
+        self.assertEqual(self.runs(), ["out/case/sweep/patch_radius=13/boundary-integral fresh"])
+
+    def test_interruption_stops_members_and_is_continued(self):
+        vary = ("--vary", "molecules.patch_radius=20,30,40", *BOUNDARY_INTEGRAL, "--jobs", "1", "-o", "s")
+        process = self.start("sweep", "case.toml", *vary, "--set", "case.name=slow")
+        ready = self.scratch / "s/patch_radius=20/boundary-integral/ready"
+        deadline = time.monotonic() + 20
+        while not ready.exists() and time.monotonic() < deadline:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=20)
+        self.assertEqual(
+            (process.returncode, errors), (130, "endoflow sweep: interrupted; the same command continues\n")
+        )
+        self.assertEqual([row["state"] for row in self.rows("s")], ["interrupted", "not run", "not run"])
+        self.runs()
+        self.assertEqual(self.sweep(*vary).returncode, 0)
+        self.assertEqual([line.split()[1] for line in self.runs()], ["restart", "fresh", "fresh"])
+
+    def test_collect_runs_nothing(self):
+        self.sweep("--vary", "molecules.patch_radius=20", *BOUNDARY_INTEGRAL, "-o", "s")
+        self.runs()
+        process = self.sweep("--vary", "molecules.patch_radius=20,30", *BOUNDARY_INTEGRAL, "-o", "s", "--collect")
+        self.assertEqual((process.returncode, self.runs()), (0, []))
+        self.assertEqual([row["state"] for row in self.rows("s")], ["finished", "not run"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,56 @@
+"""`endoflow sweep` with a program that writes runs in closed form: table, plots, messages."""
+
+import unittest
+
+import locations  # noqa: F401
+from studies import BOUNDARY_INTEGRAL, PATCHES, SweepTest
+
+
+class Sweep(SweepTest):
+    def test_table_and_plots(self):
+        process = self.sweep("--vary", PATCHES, *BOUNDARY_INTEGRAL, "--until", "1")
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        rows = self.rows()
+        self.assertEqual([row["molecules.patch_radius"] for row in rows], ["20", "40", "60"])
+        self.assertEqual({row["state"] for row in rows}, {"finished"})
+        self.assertEqual(rows[1]["directory"], "out/case/sweep/patch_radius=40/boundary-integral")
+        self.assertAlmostEqual(float(rows[0]["budding_time_us"]), 0.7346, places=3)
+        self.assertAlmostEqual(float(rows[0]["neck_radius_nm"]), 0.78, places=1)
+        for column in ("lateral_diameter_nm", "height_nm", "area_nm2", "energy_pN_nm", "wall_s"):
+            self.assertGreater(float(rows[0][column]), 0)
+        self.assertEqual((self.scratch / "out/case/sweep/sweep.png").read_bytes()[:4], b"\x89PNG")
+        self.assertIn("3 of 3 done", process.stdout)
+
+    def test_two_parameters_and_both_engines(self):
+        vary = ("--vary", "molecules.patch_radius=20,30", "--vary", "molecules.transport=fickian,advection")
+        process = self.sweep(*vary, "--engine", "both", "-o", "s")
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        self.assertEqual(len(self.rows("s")), 8)
+        self.assertIn("s/patch_radius=30/transport=fickian/phase-field fresh", self.runs())
+        self.assertTrue((self.scratch / "s/sweep.svg").exists())
+
+    def test_refused_before_anything_runs(self):
+        for values, message in (
+            ("molecules.patch_radus=1,2", "unknown key molecules.patch_radus"),
+            ("molecules.patch_radius=20,2000", "must be at most 1000"),
+            ("molecules.patch_radius=20:10:1", "a step of 1 does not lead from 20 to 10"),
+            ("patch_radius=20", "it must read section.key="),
+        ):
+            with self.subTest(values):
+                self.assert_one_line(self.sweep("--vary", values, *BOUNDARY_INTEGRAL), 2, message)
+        self.assertEqual(self.runs(), [])
+        self.assertEqual(self.sweep("--vary", PATCHES).returncode, 2)
+        self.assert_one_line(
+            self.call("sweep", "no.toml", "--vary", PATCHES, *BOUNDARY_INTEGRAL), 2, "no such case file"
+        )
+
+    def test_output_cannot_be_written(self):
+        self.assert_one_line(
+            self.sweep("--vary", PATCHES, *BOUNDARY_INTEGRAL, "-o", "case.toml/out"),
+            4,
+            "Not a directory; choose another",
+        )
+
+
+if __name__ == "__main__":
+    unittest.main()
