@@ -1,11 +1,13 @@
 #include "boundary_integral/simulation.h"
 
+#include <cblas.h>
 #include <sundials/sundials_version.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <thread>
 
 #include "boundary_integral/evolution/membrane_dynamics.h"
 #include "boundary_integral/evolution/observation.h"
@@ -230,6 +232,7 @@ class Run {
 EngineIdentity identity() {
     EngineIdentity identity;
     identity.name = "boundary-integral";
+    identity.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     identity.libraries = {{"sundials", SUNDIALS_VERSION},
                           {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
                                         "." + std::to_string(EIGEN_MINOR_VERSION)}};
@@ -252,6 +255,8 @@ ExitReason simulate(const Parameters& parameters, RunOutput& output) {
     if (parameters.fluid.inertia) {
         throw InputError("fluid.inertia: the boundary-integral engine solves the Stokes equations; set it to false");
     }
+    // Our own threads share the work; those of OpenBLAS would only spin beside them on matrices of this size.
+    openblas_set_num_threads(1);
     return Run(parameters, output).execute();
 }
 

@@ -1,7 +1,11 @@
 #include "boundary_integral/flow/box_flow.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <thread>
+
+#include "boundary_integral/support/parallel.h"
 
 namespace endoflow::boundary_integral {
 
@@ -9,6 +13,10 @@ namespace {
 
 constexpr int nodes_per_wall_panel = 10;
 constexpr double pi = std::numbers::pi;
+
+int thread_count(int wanted) {
+    return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 // u(x0) itself at the targets: rows x curve_count.
 RowMatrix evaluation_rows(const MembraneSpace& space) {
@@ -94,7 +102,8 @@ BoxFlow::BoxFlow(const Parameters& parameters, const MembraneSpace& space)
       walls_(parameters.domain, parameters.fluid, nodes_per_wall_panel),
       viscosity_below_(parameters.fluid.viscosity_extracellular),
       viscosity_above_(parameters.fluid.viscosity_intracellular),
-      inextensible_(parameters.membrane.inextensible) {
+      inextensible_(parameters.membrane.inextensible),
+      threads_(thread_count(parameters.boundary_integral.threads)) {
     const auto& nodes = walls_.nodes();
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const Index node = static_cast<Index>(i);
@@ -117,19 +126,25 @@ MobilityOperators BoxFlow::operators(const MembraneState& state, const MembraneS
     const Index rows = space_.curve_count() - 2;
     const double contrast = viscosity_below_ - viscosity_above_;
     const CollocationTargets targets = collocation_targets(space_, state);
-    const LayerQuadrature quadrature;
+    LayerQuadrature quadrature;
+    quadrature.threads = threads_;
     const MembraneLayers own = membrane_layers(space_, state, samples, targets.on_membrane, rows, quadrature);
     MembraneLayers at_walls =
         membrane_layers(space_, state, samples, wall_as_membrane_targets_, walls_.unknowns(), quadrature);
     const RowMatrix from_walls = wall_layers(walls_, targets.seen_by_walls, rows);
 
-    // Z^T = A_w^-T W^T: one wall solve per membrane row serves both right-hand sides.
-    const Eigen::MatrixXd wall_response = wall_factors_->solve_transposed(from_walls.transpose());
+    // Z^T = A_w^-T W^T: one wall solve per membrane row serves both right-hand sides. The rows are independent of each
+    // other.
     Eigen::MatrixXd velocity_matrix =
         4.0 * pi * (viscosity_below_ + viscosity_above_) * evaluation_rows(space_) + contrast * own.doubled;
-    velocity_matrix.noalias() -= contrast * (wall_response.transpose() * at_walls.doubled);
     Eigen::MatrixXd force_matrix = own.single;
-    force_matrix.noalias() -= wall_response.transpose() * at_walls.single;
+    parallel_parts(rows, threads_, [&](Index begin, Index end) {
+        const Index count = end - begin;
+        const Eigen::MatrixXd response =
+            wall_factors_->solve_transposed(from_walls.middleRows(begin, count).transpose());
+        velocity_matrix.middleRows(begin, count).noalias() -= contrast * (response.transpose() * at_walls.doubled);
+        force_matrix.middleRows(begin, count).noalias() -= response.transpose() * at_walls.single;
+    });
 
     MobilityOperators result{ClampedVelocities(space_, state), {}, {}, {}, {}};
     const LuFactors velocity_factors(result.clamped.restrict_columns(velocity_matrix), "velocity");

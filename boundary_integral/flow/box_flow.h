@@ -72,6 +72,7 @@ class BoxFlow {
     WallPanels walls_;
     double viscosity_below_, viscosity_above_;
     bool inextensible_;
+    int threads_;
     std::vector<WallTarget> wall_targets_;
     std::vector<MembraneTarget> wall_as_membrane_targets_;
     std::optional<LuFactors> wall_factors_;

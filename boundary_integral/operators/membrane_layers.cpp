@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "boundary_integral/quadrature/singular_rules.h"
+#include "boundary_integral/support/parallel.h"
 
 namespace endoflow::boundary_integral {
 
@@ -30,16 +31,15 @@ struct ExtraPoints {
 
 class Builder {
   public:
-    Builder(const MembraneSpace& space, const MembraneState& state, const MembraneSamples& samples, Index rows,
-            const LayerQuadrature& quadrature)
+    Builder(const MembraneSpace& space, const MembraneState& state, const MembraneSamples& samples,
+            const LayerQuadrature& quadrature, MembraneLayers& layers)
         : space_(space),
           state_(state),
           samples_(samples),
           near_distance_(quadrature.near_distance),
           singular_rule_(gauss_legendre(quadrature.singular_points)),
-          near_rule_(gauss_legendre(quadrature.near_points)) {
-        layers_.single = RowMatrix::Zero(rows, space.force_count());
-        layers_.doubled = RowMatrix::Zero(rows, space.curve_count());
+          near_rule_(gauss_legendre(quadrature.near_points)),
+          layers_(layers) {
         table_.resize(samples.curve.size());
         for (std::size_t i = 0; i < samples.curve.size(); ++i) {
             table_.radius[i] = samples.curve[i].r;
@@ -63,15 +63,13 @@ class Builder {
         }
     }
 
-    MembraneLayers take() { return std::move(layers_); }
-
   private:
     const MembraneSpace& space_;
     const MembraneState& state_;
     const MembraneSamples& samples_;
     double near_distance_;
     QuadratureRule singular_rule_, near_rule_;
-    MembraneLayers layers_;
+    MembraneLayers& layers_;
     RingSources table_;
     RingKernels kernels_;
     ExtraPoints extra_;
@@ -209,9 +207,13 @@ class Builder {
 MembraneLayers membrane_layers(const MembraneSpace& space, const MembraneState& state, const MembraneSamples& samples,
                                const std::vector<MembraneTarget>& targets, Index rows,
                                const LayerQuadrature& quadrature) {
-    Builder builder(space, state, samples, rows, quadrature);
-    for (const MembraneTarget& target : targets) builder.add(target);
-    return builder.take();
+    MembraneLayers layers{RowMatrix::Zero(rows, space.force_count()), RowMatrix::Zero(rows, space.curve_count())};
+    // Every target owns its rows.
+    parallel_parts(static_cast<Index>(targets.size()), quadrature.threads, [&](Index begin, Index end) {
+        Builder builder(space, state, samples, quadrature, layers);
+        for (Index i = begin; i < end; ++i) builder.add(targets[at(i)]);
+    });
+    return layers;
 }
 
 }  // namespace endoflow::boundary_integral

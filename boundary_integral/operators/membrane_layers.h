@@ -22,6 +22,7 @@ struct MembraneLayers {
 };
 
 struct LayerQuadrature {
+    int threads = 1;
     int singular_points = 24;    // per side of the target, its own element
     int near_points = 20;        // per side of the closest point, near elements
     double near_distance = 1.0;  // in element lengths
