@@ -8,8 +8,8 @@ namespace endoflow::boundary_integral {
 OffsetRule near_singular_rule(double begin, double end, double closest, double width, const QuadratureRule& base) {
     OffsetRule rule;
     rule.origin = std::clamp(closest, begin, end);
-    const auto side = [&](double low, double high) {  // offsets between low and high
-        if (!(high > low)) return;
+    const auto side = [&](double low, double high) {       // offsets between low and high
+        if (!(high - low > 1e-9 * (end - begin))) return;  // the point is this end, up to round-off
         const double eta_low = std::asinh(low / width);
         const double eta_high = std::asinh(high / width);
         const double middle = 0.5 * (eta_low + eta_high);
@@ -29,7 +29,7 @@ OffsetRule logarithmic_rule(double begin, double end, double closest, const Quad
     OffsetRule rule;
     rule.origin = std::clamp(closest, begin, end);
     const auto side = [&](double length) {
-        if (length == 0.0) return;
+        if (std::abs(length) < 1e-9 * (end - begin)) return;  // the point is this end, up to round-off
         for (std::size_t i = 0; i < base.nodes.size(); ++i) {
             const double x = 0.5 * (1.0 + base.nodes[i]);
             rule.offsets.push_back(length * x * x * x);
