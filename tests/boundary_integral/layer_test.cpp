@@ -7,6 +7,7 @@
 
 #include "boundary_integral/flow/dense_solver.h"
 #include "boundary_integral/operators/membrane_layers.h"
+#include "boundary_integral/quadrature/singular_rules.h"
 #include "boundary_integral/walls/wall_panels.h"
 #include "curves.h"
 
