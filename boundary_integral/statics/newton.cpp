@@ -1,6 +1,7 @@
 #include "boundary_integral/statics/newton.h"
 
 #include <cmath>
+#include <stdexcept>
 
 namespace endoflow::statics {
 
@@ -44,6 +45,8 @@ BranchCondition parameter_condition(const PiecewiseSolution& guess, double value
 std::optional<NewtonResult> solve_newton(const BoundaryValueProblem& problem, const GaussRule& rule,
                                          const PiecewiseSolution& guess, const BranchCondition& condition,
                                          int most_iterations) {
+    if (guess.slopes.front().cols() != rule.points)
+        throw std::invalid_argument("solve_newton: the guess belongs to another collocation rule");
     NewtonResult result{guess, {}, 0, 0};
     for (; result.iterations < most_iterations; ++result.iterations) {
         const LinearisedCollocation linearised(problem, rule, result.solution, condition);

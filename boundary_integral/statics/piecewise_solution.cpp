@@ -84,14 +84,19 @@ PiecewiseSolution sample(const std::vector<double>& mesh, const GaussRule& rule,
     return result;
 }
 
-PiecewiseSolution interpolate(const PiecewiseSolution& solution, const GaussRule& rule,
-                              const std::vector<double>& mesh) {
+PiecewiseSolution resample(const PiecewiseSolution& solution, const GaussRule& rule, const std::vector<double>& mesh,
+                           const GaussRule& new_rule) {
     const auto value = [&](double x) { return evaluate(solution, rule, x); };
     const auto slope = [&](double x) -> Eigen::VectorXd {
         const std::size_t i = solution.element_of(x);
         return solution.slopes[i] * rule.values((x - solution.mesh[i]) / solution.width(i));
     };
-    return sample(mesh, rule, value, slope, solution.globals, solution.parameter);
+    return sample(mesh, new_rule, value, slope, solution.globals, solution.parameter);
+}
+
+PiecewiseSolution interpolate(const PiecewiseSolution& solution, const GaussRule& rule,
+                              const std::vector<double>& mesh) {
+    return resample(solution, rule, mesh, rule);
 }
 
 std::vector<double> equidistributed_mesh(const PiecewiseSolution& solution, const GaussRule& rule,

@@ -34,6 +34,10 @@ struct PiecewiseSolution {
 [[nodiscard]] PiecewiseSolution interpolate(const PiecewiseSolution& solution, const GaussRule& rule,
                                             const std::vector<double>& mesh);
 
+/// The same functions on another mesh with another number of Gauss points per element.
+[[nodiscard]] PiecewiseSolution resample(const PiecewiseSolution& solution, const GaussRule& rule,
+                                         const std::vector<double>& mesh, const GaussRule& new_rule);
+
 /// Samples functions given as y(x) and dy/dx(x), (n) each.
 [[nodiscard]] PiecewiseSolution sample(const std::vector<double>& mesh, const GaussRule& rule,
                                        const std::function<Eigen::VectorXd(double)>& y,

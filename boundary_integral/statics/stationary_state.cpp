@@ -168,7 +168,10 @@ std::optional<Branch> continue_state(const StationaryState& state, const Paramet
                                      const Visitor& visit, const Resolution& resolution) {
     const GaussRule rule(resolution.points);
     const BoundaryValueProblem problem = stationary_shapes(with, begin, std::max(std::abs(begin), 0.1 * std::abs(end)));
-    PiecewiseSolution guess = state.point.solution;
+    const PiecewiseSolution& solution = state.point.solution;
+    const GaussRule rule_of_state(static_cast<int>(solution.slopes.front().cols()));
+    const auto mesh = equidistributed_mesh(solution, rule_of_state, problem.state_scales, resolution.elements);
+    PiecewiseSolution guess = resample(solution, rule_of_state, mesh, rule);
     guess.parameter = begin;
     const auto start = begin_branch(problem, rule, guess, end);
     if (!start) return std::nullopt;

@@ -44,7 +44,7 @@ TEST_CASE("Collocation at k Gauss points has order 2k at the mesh points and k +
     const double theta = 4 * std::acosh(std::exp(exact / 2));
     const auto solution = [&](double x) { return exact - 2 * std::log(std::cosh((x - 0.5) * theta / 2)); };
     std::vector<double> at_node, between;
-    for (const std::size_t elements : {4, 8, 16}) {
+    for (const std::size_t elements : {4U, 8U, 16U}) {
         const auto guess = zero_guess(elements, rule, p);
         const auto solved = solve_newton(problem, rule, guess, parameter_condition(guess, p, problem), 30);
         REQUIRE(solved);
@@ -78,6 +78,13 @@ TEST_CASE("Newton's method says when there is no solution", "[statics]") {
     const auto problem = bratu_problem();
     const auto guess = zero_guess(8, rule, 4);  // the fold is at 3.51
     CHECK_FALSE(solve_newton(problem, rule, guess, parameter_condition(guess, 4, problem), 50));
+}
+
+TEST_CASE("A guess of another collocation rule is refused", "[statics]") {
+    const auto problem = bratu_problem();
+    const auto guess = zero_guess(4, GaussRule(3), 1);
+    CHECK_THROWS_AS(solve_newton(problem, GaussRule(4), guess, parameter_condition(guess, 1, problem), 5),
+                    std::invalid_argument);
 }
 
 TEST_CASE("An equidistributed mesh gathers where the solution is steep", "[statics]") {

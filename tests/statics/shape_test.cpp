@@ -126,16 +126,16 @@ TEST_CASE("The fold in patch radius: no state with a neck beyond 25.6 nm", "[sta
     REQUIRE(branch->folds.size() == 1);
     CHECK(branch->folds[0].parameter() == Approx(25.6).epsilon(2e-3));       // two digits are known elsewhere
     CHECK(branch->folds[0].parameter() == Approx(25.594251).epsilon(1e-6));  // what this solver gives
-    const auto finer = continue_state(state, path, 24, 30, until_fold, Resolution{5, 96});
-    REQUIRE(finer);
-    REQUIRE(finer->folds.size() == 1);
-    CHECK(branch->folds[0].parameter() == Approx(finer->folds[0].parameter()).epsilon(1e-8));
+    const auto other = continue_state(state, path, 24, 30, until_fold, Resolution{6, 36});
+    REQUIRE(other);
+    REQUIRE(other->folds.size() == 1);
+    CHECK(branch->folds[0].parameter() == Approx(other->folds[0].parameter()).epsilon(1e-8));
     CHECK(state.point.folds_before == 0);
 }
 
 TEST_CASE("A case beyond the fold is refused with the fold's place", "[statics]") {
     try {
-        (void)find_stationary_state(patch(26.5, Transport::cahn_hilliard));
+        (void)find_stationary_state(patch(26.5, Transport::cahn_hilliard), Resolution{4, 24});
         FAIL("there is no such state");
     } catch (const SolverError& error) {
         CHECK(error.name() == "no-stationary-state");
