@@ -15,6 +15,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
 
 from study_command import (  # noqa: E402  (lies beside this file)
+    BAD_INPUT,
     RUN_FAILED,
     add_run_options,
     common_settings,
@@ -98,9 +99,13 @@ def loaded(members):
 
 
 def write_results(sharp, diffuse, times, output):
-    """Write everything that is made from the members' runs; returns the metrics, None when there is nothing to compare."""
+    """Write everything that is made from the members' runs; returns the metrics.
+
+    Raises StudyError when there is nothing to compare.
+    """
     import study_plots
     from convergence import DiffuseRun, study_metrics, table
+    from members import StudyError
     from metrics import flat_parameters
     from study_report import convergence_html
     from sweep_table import write_table
@@ -108,13 +113,13 @@ def write_results(sharp, diffuse, times, output):
     runs, problems = loaded([sharp, *diffuse])
     pairs = [(member, runs[member.name]) for member in diffuse if member.name in runs]
     if sharp.name not in runs or not pairs:
-        return None
+        raise StudyError(f"nothing to compare: {problems[0]}", RUN_FAILED)
     kept = [
         DiffuseRun(*(m.parameters["phase_field"][key] for key in ("epsilon", "cell_size")), run) for m, run in pairs
     ]
     metrics = study_metrics(runs[sharp.name], kept, times)
     if not metrics["records"]:
-        return None
+        raise StudyError("nothing to compare: no run covers the times asked for; choose other --times", BAD_INPUT)
     metrics["warnings"] = problems + metrics["warnings"]
     (output / "metrics.json").write_text(json.dumps(metrics, indent=2, allow_nan=False) + "\n", encoding="utf-8")
     write_table(output / "converge.csv", table(metrics))
@@ -143,7 +148,6 @@ def summary_lines(metrics, output):
 def converge(options):
     """Run the command; returns its exit code."""
     from member_runner import Interruption
-    from members import StudyError
 
     output = output_directory(options, "converge")
     times = sorted(positive_numbers(options.times, "--times")) if options.times else []
@@ -156,11 +160,8 @@ def converge(options):
         if interruption.signal:
             print("endoflow converge: interrupted; the same command continues", file=sys.stderr)
             return 128 + interruption.signal
-        metrics = write_results(sharp, diffuse, times, output)
         failed = report_failures("converge", outcomes)
-        if metrics is None:
-            what = "the runs above failed" if failed else "no run covers the times asked for; choose other --times"
-            raise StudyError(f"nothing to compare: {what}", RUN_FAILED if failed else 2)
+        metrics = write_results(sharp, diffuse, times, output)
         for warning in metrics["warnings"]:
             print(f"endoflow converge: warning: {warning}", file=sys.stderr)
         print("\n".join(summary_lines(metrics, output)))

@@ -38,7 +38,7 @@ class Outcome:
 
 @dataclass
 class Running:
-    """A member that runs. started: time.monotonic() in s; start_time: simulated time (µs) it started from."""
+    """A member that runs. started: time.time() in s; start_time: simulated time (µs) it started from."""
 
     task: Task
     process: subprocess.Popen
@@ -130,7 +130,7 @@ def _started(task, environment):
         start_new_session=True,
     )
     start_time = simulated_time(task.member.directory) if "--restart" in task.command else 0.0
-    return Running(task, process, errors, time.monotonic(), start_time)
+    return Running(task, process, errors, time.time(), start_time)
 
 
 def _outcome(one, interrupted):
@@ -174,10 +174,15 @@ def _leaves(pid, children):
     return [leaf for child in below for leaf in _leaves(child, children)] if below else [pid]
 
 
-def simulated_time(directory):
-    """Time (µs) of the last complete row of a running member's history.csv; 0 before the first."""
+def simulated_time(directory, since=0.0):
+    """Time (µs) of the last complete row of a member's history.csv; 0 before the first, or when it is older than `since`.
+
+    since: time.time() in s.
+    """
     try:
         with open(directory / "history.csv", "rb") as file:
+            if os.fstat(file.fileno()).st_mtime < since:
+                return 0.0
             file.seek(max(0, file.seek(0, os.SEEK_END) - 8192))
             rows = file.read().decode("ascii", "replace").split("\n")[:-1]
         return float(rows[-1].split(",")[0])

@@ -21,7 +21,7 @@ class Progress:
         self.counts, self.updated = None, 0.0
 
     def __call__(self, running, outcomes):
-        now = time.monotonic()
+        now = time.time()
         for one in running:
             self.known[one.task.member.name] = one.started
         for name in [name for name in self.known if name in outcomes]:
@@ -62,7 +62,7 @@ class Progress:
 def fraction(one):
     """(done since its start, done in all) of a running member, as fractions of the simulated time."""
     end, start = one.task.member.end, one.start_time
-    now = max(start, simulated_time(one.task.member.directory))
+    now = max(start, simulated_time(one.task.member.directory, one.started))
     return (now - start) / (end - start) if end > start else 0.0, now / end if end > 0 else 0.0
 
 

@@ -83,7 +83,7 @@ class Converge(StudyTest):
     def test_nothing_to_compare(self):
         process = self.call("converge", "case.toml", "--epsilon", "0.7", "-o", "out", "--until", "0.5")
         self.assertEqual(process.returncode, 3)
-        self.assertIn("nothing to compare: the runs above failed", process.stderr)
+        self.assertIn("nothing to compare: epsilon=0.7 is left out", process.stderr)
         self.assertNotIn("Traceback", process.stderr)
         process = self.call("converge", "case.toml", "--epsilon", "1.2", "-o", "out", "--until", "0.5", "--times", "9")
         self.assert_one_line(process, 2, "choose other --times")
