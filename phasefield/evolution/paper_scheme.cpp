@@ -9,6 +9,8 @@ namespace {
 /// then s; then c.
 State advance_paper(Discretization& d, const State& old_state, double tau) {
     State state = old_state;
+    for (Vector* copy : {&state.flow, &state.molecules, &state.stretching})
+        copy->update_ghost_values();  // a copy of a deal.II vector does not have them
     assemble_coupled(d.spaces, old_state, old_state.flow, d.parameters, tau, d.coupled);
     Vector increment = d.spaces.flow.vector();
     d.coupled.solve(d.spaces.flow, increment);

@@ -39,10 +39,11 @@ State load_mesh_and_state(const std::filesystem::path& directory, Discretization
         throw IoError("checkpoint " + directory.string() + " holds no mesh; start the run afresh");
     d.mesh->load((directory / "mesh").string());
     d.renew();
-    Vector flow = read(d.spaces.flow);
-    Vector molecules = read(d.spaces.molecules);
-    Vector stretching = read(d.spaces.stretching);
-    return {flow, molecules, stretching};
+    State state;
+    state.flow = read(d.spaces.flow);
+    state.molecules = read(d.spaces.molecules);
+    state.stretching = read(d.spaces.stretching);
+    return state;
 }
 
 }  // namespace endoflow::phasefield

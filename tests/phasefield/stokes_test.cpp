@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "phasefield/discretization/mesh.h"
 #include "phasefield/monolithic/coupled_step.h"
 
 using namespace endoflow;
