@@ -150,7 +150,7 @@ def _outcome(one, interrupted):
 
 
 def _signal_all(running, number):
-    """Send a signal to the processes at the bottom of every member's tree: mpirun itself would not let its children finish."""
+    """Signal the processes at the bottom of every member's tree: mpirun itself would not let its children finish."""
     children = _children()
     for one in running:
         for pid in _leaves(one.process.pid, children):

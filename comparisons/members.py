@@ -1,4 +1,4 @@
-"""The members of a study: runs of one case that differ in some parameters. Their directories, state, and what is left to do."""
+"""The members of a study, runs of one case that differ in some parameters: directories, state, what is left to do."""
 
 import json
 import re

@@ -1,4 +1,4 @@
-"""What `endoflow converge` and `endoflow sweep` have in common: options, running the members, messages and exit codes."""
+"""What `endoflow converge` and `endoflow sweep` share: options, running the members, messages and exit codes."""
 
 import contextlib
 import fcntl

@@ -1,5 +1,7 @@
 """Plots of the ε → 0 study, each written as PNG and SVG on light ground."""
 
+import textwrap
+
 import style
 
 style.apply()
@@ -45,7 +47,7 @@ LABEL_GAP = 0.075
 
 
 def write_all(sharp, diffuse, metrics, directory):
-    """Write every plot of a study's endoflow.Run, DiffuseRuns and metrics into directory (Path); returns {name: title}."""
+    """Write every plot of a study's endoflow.Run, DiffuseRuns and metrics into directory; returns {name: title}."""
     figures = {
         "errors": ("Errors against ε, with the fitted orders p", errors(metrics)),
         "limits": (f"Values at {metrics['times_us'][-1]:.4g} µs and their limit ε → 0", limits(metrics)),
@@ -111,7 +113,7 @@ def _draw_errors(axes, quantity, lines, orders):
             shown.append((fitted[np.argmin(x)], x.min(), colour, fit["order"]))
     if not axes.lines:
         axes.set(xticks=[], yticks=[])
-        axes.text(0.5, 0.5, "does not exist", transform=axes.transAxes, ha="center", color="#777777")
+        axes.text(0.5, 0.5, "not in these runs", transform=axes.transAxes, ha="center", color="#777777")
         return
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -185,7 +187,7 @@ def _draw_limit(axes, quantity, points, entry):
     points = [(e, v) for e, v in points if v is not None]
     if not points or entry is None:
         axes.set(xticks=[], yticks=[])
-        axes.text(0.5, 0.5, "does not exist", transform=axes.transAxes, ha="center", color="#777777")
+        axes.text(0.5, 0.5, "not in these runs", transform=axes.transAxes, ha="center", color="#777777")
         return
     x, y = map(np.array, zip(*points))
     axes.set_xlim(-0.06 * x.max(), 1.06 * x.max())
@@ -194,7 +196,8 @@ def _draw_limit(axes, quantity, points, entry):
         axes.axhline(entry["sharp"], color=SHARP, linewidth=2, zorder=1)
     axes.plot(x, y, "o", color=colour, markersize=5, zorder=3)
     if entry["value"] is None:
-        axes.text(0.03, 0.05, f"no limit: {entry['reason']}", transform=axes.transAxes, size=7, color="#777777")
+        text = "no limit:\n" + textwrap.fill(entry["reason"], 28)
+        axes.text(0.04, 0.5, text, transform=axes.transAxes, va="center", size=8, color="#777777").set_in_layout(False)
         return
     fine = np.linspace(0, x.max(), 200)
     fitted = entry["value"] + (entry["coefficient"] * fine ** entry["order"] if entry["order"] else 0 * fine)

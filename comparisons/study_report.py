@@ -161,3 +161,13 @@ def parameters_table(parameters):
     """All parameters that the runs share."""
     rows = [("", [f"<code>{escaped(key)}</code>", setting(value)]) for key, value in parameters.items()]
     return report.table(["", "value"], rows, "text")
+
+
+def sweep_html(rows, keys, drawn, directory):
+    """The page of a sweep: its rows (as of sweep_table) over the varied keys; drawn: {plot: title}."""
+    failed = [f"{row['directory']} failed: {row['exit_reason']}" for row in rows if row["state"] == "failed"]
+    heads = [column for column in rows[0] if column != "directory"]
+    body = report.table(heads, [("", [setting(row[column], 5) for column in heads]) for row in rows])
+    plots = "".join(report.plot(directory / f"{name}.svg", title) for name, title in drawn.items())
+    sections = [("Plots", plots)] * bool(plots) + [("Runs", body)]
+    return page("endoflow sweep", " and ".join(keys), f"{len(rows)} runs", failed, [], sections, directory)

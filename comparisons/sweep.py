@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""`endoflow sweep CASE.toml --vary section.key=start:stop:step --engine E [-o DIR]`: many runs of one case, their table and plots.
+"""`endoflow sweep CASE.toml --vary section.key=start:stop:step --engine E [-o DIR]`: many runs of one case.
 
-Exit codes: 0 done; 2 bad command line or parameter; 3 a run failed; 4 input or output; 130 or 143 interrupted (run it again
-to continue).
+Writes sweep.csv, plots and report.html. Exit codes: 0 done; 2 bad command line or parameter; 3 a run failed; 4 input or
+output; 130 or 143 interrupted (run it again to continue).
 """
 
 import argparse
@@ -96,12 +96,11 @@ def collect(members, outcomes, output):
     return rows
 
 
-def summary_lines(rows, drawn, output):
+def summary_lines(rows, output):
     """What the terminal shows at the end, as a list of lines."""
     states = [row["state"] for row in rows]
     counts = ", ".join(f"{states.count(state)} {state}" for state in dict.fromkeys(states))
-    plots = ", ".join(f"{name}.png" for name in drawn) or "none"
-    return [f"runs    {counts}", f"table   {output / 'sweep.csv'}", f"plots   {plots}"]
+    return [f"runs    {counts}", f"table   {output / 'sweep.csv'}", f"report  {output / 'report.html'}"]
 
 
 def sweep(options):
@@ -111,6 +110,7 @@ def sweep(options):
     output = output_directory(options, "sweep")
     members = sweep_members(options, output)
     import sweep_plots  # before the runs, so that a missing matplotlib does not come to light after them
+    from study_report import sweep_html
 
     with lock(output):
         if options.slurm:
@@ -125,8 +125,10 @@ def sweep(options):
                 print("endoflow sweep: interrupted; the same command continues", file=sys.stderr)
                 return 128 + interruption.signal
         rows = collect(members, outcomes, output)
-        drawn = sweep_plots.write_all(rows, [*members[0].values], output)
-        print("\n".join(summary_lines(rows, drawn, output)))
+        keys = [*members[0].values]
+        drawn = sweep_plots.write_all(rows, keys, output)
+        (output / "report.html").write_text(sweep_html(rows, keys, drawn, output), encoding="utf-8")
+        print("\n".join(summary_lines(rows, output)))
         return RUN_FAILED if report_failures("sweep", outcomes) else 0
 
 

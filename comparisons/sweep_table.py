@@ -1,8 +1,8 @@
 """sweep.csv: one row for each member of a sweep.
 
-Columns: the varied parameters (section.key), engine, state, exit_reason, time_us (reached), budding_time_us, then the last
-row of history.csv: neck_radius_nm, lateral_diameter_nm, height_nm, area_nm2, energy_pN_nm; wall_s; directory. Empty cells
-stand for "does not exist" (no neck, no budding, not run).
+Columns: the varied parameters (section.key), engine, state, exit_reason, time_us (reached), budding_time_us, then the
+last row of history.csv: neck_radius_nm, lateral_diameter_nm, height_nm, area_nm2, energy_pN_nm; wall_s; directory. Empty
+cells stand for "does not exist" (no neck, no budding, not run).
 """
 
 import csv

@@ -19,6 +19,7 @@ class Sweep(SweepTest):
         for column in ("lateral_diameter_nm", "height_nm", "area_nm2", "energy_pN_nm", "wall_s"):
             self.assertGreater(float(rows[0][column]), 0)
         self.assertEqual((self.scratch / "out/case/sweep/sweep.png").read_bytes()[:4], b"\x89PNG")
+        self.assertIn("molecules.patch_radius", (self.scratch / "out/case/sweep/report.html").read_text())
         self.assertIn("3 of 3 done", process.stdout)
 
     def test_two_parameters_and_both_engines(self):
