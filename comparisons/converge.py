@@ -2,8 +2,8 @@
 """`endoflow converge CASE.toml --epsilon 2.4,1.7,1.2,0.85 [-o DIR]`: the phase field's way to the sharp membrane.
 
 Runs the boundary-integral engine once and the phase-field engine for each ε, then writes metrics.json, converge.csv,
-plots and report.html. Exit codes: 0 done; 2 bad command line or parameter; 3 a run failed; 4 input or output; 130 or 143
-interrupted (run it again to continue).
+plots and report.html. Exit codes: 0 done; 2 bad command line or parameter; 3 a run failed; 4 input or output; 130 or
+143 interrupted (run it again to continue).
 """
 
 import argparse

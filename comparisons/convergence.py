@@ -6,7 +6,7 @@ metrics.json (schema_version 1); keys end in their unit, null stands for "does n
     sharp          the boundary-integral run: label, directory, state, budding_time_us, … (as in a comparison)
     runs           the same for each phase-field run, with epsilon_nm, cell_size_nm, wall_s
     times_us       the stated times
-    records        for each stated time and ε: epsilon_nm, and a comparison's record (metrics.py), a = sharp, b = diffuse
+    records        for each stated time and ε: epsilon_nm, a comparison's record (metrics.py), a: sharp, b: diffuse
     orders         for each quantity and stated time (null for the budding time): quantity, time_us, order, low, high
                    (95 % interval), factor, local (orders between neighbouring ε): |error| = factor ε^order
     limits         for each quantity and stated time: quantity, time_us, value, error (v0 and its error), order,
@@ -76,8 +76,10 @@ def described(one):
 
 
 def stated_times(sharp, diffuse):
-    """At most STATED_TIMES output times (µs) of the sharp run, evenly chosen up to its budding or, when that is earlier,
-    the last time all finished runs cover."""
+    """At most STATED_TIMES output times (µs) of the sharp run, evenly chosen up to its budding.
+
+    Or, when that is earlier, up to the last time all finished runs cover.
+    """
     finished = [one.run for one in diffuse if one.run.record.get("state") == "finished"]
     last = min(run.shape_times[-1] for run in [sharp, *(finished or [one.run for one in diffuse])])
     wanted = np.linspace(0.0, min(last, sharp.event_time("budding") or last), STATED_TIMES + 1)[1:]

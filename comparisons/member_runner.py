@@ -175,9 +175,9 @@ def _leaves(pid, children):
 
 
 def simulated_time(directory, since=0.0):
-    """Time (µs) of the last complete row of a member's history.csv; 0 before the first, or when it is older than `since`.
+    """Time (µs) of the last complete row of a member's history.csv; 0 before the first.
 
-    since: time.time() in s.
+    A file older than `since` (time.time() in s) belongs to an earlier run and counts as none.
     """
     try:
         with open(directory / "history.csv", "rb") as file:

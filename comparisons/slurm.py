@@ -45,8 +45,8 @@ def array_script(entries, name, script, working_directory, program, processes, t
     """Text of the script.
 
     entries: [(work, directory, command line)] of the members to run; a command line is a list of str whose program is
-    "$endoflow". script, working_directory, program: paths; processes of each member, threads of each process; jobs: most
-    members at a time, None for no limit.
+    "$endoflow". script, working_directory, program: paths; processes of each member, threads of each process;
+    jobs: most members at a time, None for no limit.
     """
     return TEMPLATE.format(
         count=len(entries),

@@ -74,7 +74,7 @@ def spread(places, gap):
 
 
 def errors(metrics):
-    """|error| of every quantity against ε on logarithmic axes, one line for each stated time, fitted orders beside them."""
+    """|error| of every quantity against ε on logarithmic axes, one line with its order for each stated time."""
     times, records = metrics["times_us"], metrics["records"]
     colours = shades(TIMES, len(times))
     figure, grid = plt.subplots(2, 4, figsize=(12.4, 6.0), layout="constrained")
@@ -210,7 +210,7 @@ def _draw_limit(axes, quantity, points, entry):
 
 
 def membranes(sharp, diffuse, times):
-    """Outlines of all runs on top of each other, one panel for each time (µs); the sharp one is the broad line below."""
+    """Outlines of all runs on top of each other, one panel for each time (µs); the broad line is the sharp one."""
     colours = shades(EPSILONS, len(diffuse))
     shapes = [[_shape_or_none(run, t) for run in (sharp, *(one.run for one in diffuse))] for t in times]
     z_range = vertical_range([shape for row in shapes for shape in row if shape is not None], 6.0)

@@ -52,9 +52,9 @@ def convergence_html(metrics, case_name, parameters, drawn, directory):
 
 
 LIMITS_NOTE = (
-    '<p class="note">v0 of v0 + a ε^p fitted to the phase-field values alone. Its error is, with four or more ε, the larger of '
-    "the fit’s 95 % half width and the change when the largest ε is left out; with three ε the whole distance from the "
-    "smallest ε to the limit.</p>"
+    '<p class="note">v0 of v0 + a ε^p fitted to the phase-field values alone. Its error is, with four or more ε, the '
+    "larger of the fit’s 95 % half width and the change when the largest ε is left out; with three ε the whole distance "
+    "from the smallest ε to the limit.</p>"
 )
 
 
@@ -167,7 +167,8 @@ def sweep_html(rows, keys, drawn, directory):
     """The page of a sweep: its rows (as of sweep_table) over the varied keys; drawn: {plot: title}."""
     failed = [f"{row['directory']} failed: {row['exit_reason']}" for row in rows if row["state"] == "failed"]
     heads = [column for column in rows[0] if column != "directory"]
-    body = report.table(heads, [("", [setting(row[column], 5) for column in heads]) for row in rows])
+    titles = [escaped(column.replace("_", " ")) for column in heads]
+    body = report.table(titles, [("", [setting(row[column], 5) for column in heads]) for row in rows])
     plots = "".join(report.plot(directory / f"{name}.svg", title) for name, title in drawn.items())
     sections = [("Plots", plots)] * bool(plots) + [("Runs", body)]
     return page("endoflow sweep", " and ".join(keys), f"{len(rows)} runs", failed, [], sections, directory)

@@ -123,7 +123,7 @@ def _legend(figure, engines, with_missing):
 
 
 def maps(rows, key_x, key_y):
-    """Heat maps of the first quantities over two parameters, a row of maps for each engine; grey where there is no value."""
+    """Heat maps of the first quantities over two parameters, a row for each engine; grey where there is no value."""
     engines = engines_of(rows)
     x, y = (list(dict.fromkeys(row[key] for row in rows)) for key in (key_x, key_y))
     height = 0.5 + len(engines) * (1.2 + min(3.4, max(1.4, 0.42 * len(y))))

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Stands in for the program `endoflow`: `check` and `run` as the real ones behave, with a membrane known in closed form.
+"""Stands in for the program `endoflow`: `check` and `run` as the real ones, with a membrane known in closed form.
 
-Settings steer it: a patch radius of 13 or an ε of 0.7 makes `run` fail as a solver does, the case.name "slow" makes it run until
-a signal and end with a checkpoint. A molecules.patch_radius above 1000 and unknown keys are refused. Every run appends a line to
-runs.log in the working directory, where defaults.json holds the parameters.
+Settings steer it: a patch radius of 13 or an ε of 0.7 makes `run` fail as a solver does, the case.name "slow" makes it
+run until a signal and end with a checkpoint. A patch radius above 1000 and unknown keys are refused. Every run appends a
+line to runs.log in the working directory, where defaults.json holds the parameters.
 """
 
 import json

@@ -20,7 +20,8 @@ class FittedOrder(unittest.TestCase):
             np.testing.assert_allclose(fit.local, order)
 
     def test_interval_is_that_of_students_distribution(self):
-        # log errors 0, 1, 1 at log ε 0, 1, 2: slope 1/2, residuals −1/6, 1/3, −1/6, variance 1/6, spread 2, t(0.975; 1) = 12.7062.
+        # log errors 0, 1, 1 at log ε 0, 1, 2: slope 1/2, residuals −1/6, 1/3, −1/6, variance 1/6, spread 2;
+        # t(0.975; 1) = 12.7062.
         fit = fitted_order(np.exp([0.0, 1.0, 2.0]), np.exp([0.0, 1.0, 1.0]))
         self.assertAlmostEqual(fit.order, 0.5, places=12)
         self.assertAlmostEqual(fit.high - 0.5, 12.7062 * np.sqrt(1 / 12), places=4)

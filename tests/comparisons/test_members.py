@@ -1,4 +1,4 @@
-"""Members of a study: names, what is left to do, command lines, shares of the cores; the Slurm script under a real bash."""
+"""Members of a study: names, what is left to do, command lines, shares of the cores; the Slurm script in bash."""
 
 import json
 import os
