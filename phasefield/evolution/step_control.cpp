@@ -1,6 +1,7 @@
 #include "phasefield/evolution/step_control.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "shared/support/error.h"
@@ -29,7 +30,7 @@ double StepControl::step(double time, double deadline) const {
 
 void StepControl::accept(double tau, double motion) {
     since_doubling += 1;
-    const double allowed = motion > 0 ? tau * safety * max_motion_ / motion : limit_;
+    const double allowed = motion > 0 ? tau * safety * max_motion_ / motion : std::numeric_limits<double>::infinity();
     if (since_doubling >= ramp_steps_ && 2 * nominal <= allowed) {
         nominal *= 2;
         since_doubling = 0;

@@ -1,6 +1,7 @@
 // Time step control, joining of contour pieces, distance from the walls: parts without finite elements.
 
 #include <catch2/catch.hpp>
+#include <limits>
 #include <string>
 
 #include "phasefield/contour/chain.h"

@@ -24,6 +24,31 @@ double mass_drift(Transport transport) {
     return integrate_layer(d.spaces, state, p).molecules / before - 1;
 }
 
+/// −2πR ∫ ½ |∂φ/∂z| u_r dz on r = R, by the trapezoidal rule on eight intervals per cell.
+double rim_inflow(const Space& flow, const Vector& values) {
+    std::vector<dealii::Point<2>> points;
+    for (int i = 0; i <= 8; ++i) points.emplace_back(1.0, i / 8.0);
+    const dealii::Quadrature<2> wall(points);
+    const ScalarBasis velocity(flow.degrees[u_r], wall), profile(flow.degrees[phi], wall);
+    dealii::Vector<double> cell_values(flow.element.n_dofs_per_cell());
+    std::vector<double> coefficients;
+    ScalarField u, p;
+    double sum = 0;
+    for (const auto& cell : flow.dofs.active_cell_iterators()) {
+        if (!cell->face(1)->at_boundary()) continue;
+        const CellBox box = cell_box(cell);
+        cell->get_dof_values(values, cell_values);
+        component_values(flow, u_r, cell_values, coefficients);
+        evaluate(velocity, box, coefficients, Derivatives::first, u);
+        component_values(flow, phi, cell_values, coefficients);
+        evaluate(profile, box, coefficients, Derivatives::first, p);
+        for (unsigned int i = 0; i <= 8; ++i)
+            sum -= (i % 8 == 0 ? 0.5 : 1) * box.hz / 8 * 2 * M_PI * (box.r0 + box.hr) * 0.5 * std::abs(p.z[i]) *
+                   u.value[i];
+    }
+    return sum;
+}
+
 }  // namespace
 
 TEST_CASE("every law of transport conserves the molecules to round-off", "[transport]") {
@@ -51,15 +76,17 @@ TEST_CASE("stretching is conserved but for what flows in at the rim", "[transpor
     const double tau = 1e-4;
     state = advance(d, state, tau);
     const double after = integrate_layer(d.spaces, state, p).stretching;
-    // The inflow is −2πR ∫ ½|∇φ| u_r dz on r = R, and u_r is nearly constant across the layer.
-    const auto curve = extract_contour(d.spaces, state, p).curve;
-    const double inflow = -2 * M_PI * p.domain.radius * curve.u_r.back() * tau;
-    CHECK(after - before == Approx(inflow).epsilon(0.1));
+    const double inflow = tau * rim_inflow(d.spaces.flow, state.flow);
+    INFO("gained " << after - before << ", flowed in " << inflow);
+    CHECK(after - before == Approx(inflow).epsilon(5e-3));  // the trapezoidal rule; P_rr ≈ 1
     CHECK(after != before);
 }
 
 TEST_CASE("adapting the mesh leaves the layer as it is", "[transport]") {
-    const Parameters p = small_case();
+    Parameters p = small_case();
+    p.domain.height = 80;
+    p.domain.membrane_height = 40;
+    p.phase_field.band_width = 6;
     Discretization d(p, MPI_COMM_SELF);
     State state = initial_state(d);
     for (int step = 0; step < 2; ++step) state = advance(d, state, 1e-4);
@@ -67,7 +94,7 @@ TEST_CASE("adapting the mesh leaves the layer as it is", "[transport]") {
     const auto contour = extract_contour(d.spaces, state, p);
     const auto cells = d.mesh->n_global_active_cells();
     auto shifted = positions(contour.curve);
-    for (auto& point : shifted) point.z += 2.5;  // the band moves up by one cell
+    for (auto& point : shifted) point.z += 3;  // more than a cell, less than the margin beyond the layer
     REQUIRE(adapt(d, state, shifted));
     CHECK(d.mesh->n_global_active_cells() >= cells);
     const auto after = integrate_layer(d.spaces, state, p);
