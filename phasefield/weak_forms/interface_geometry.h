@@ -40,7 +40,8 @@ inline double normal_divergence(const PhaseFieldPoint& phi, double r, double flo
 
 /// Where and how the profile relaxation acts: n, the weight W = (1 − φ⁴)(1 − exp(−((R − r)/(2ε))²)) and ∇·(n W) [1/nm].
 /// W fades in the tails of the layer, where n means nothing, and at r = R, where φ is given and the relaxation could
-/// only be balanced by a spurious γ g.
+/// only be balanced by a spurious γ g. (A weight that also vanishes on φ = 0, to rule out any slip, was tried:
+/// unstable.)
 struct ProfileRelaxation {
     double normal_r, normal_z, weight, weighted_normal_divergence;
 };
@@ -50,13 +51,11 @@ inline ProfileRelaxation profile_relaxation(const PhaseFieldPoint& phi, double r
     const LayerGeometry layer = layer_geometry(phi.r, phi.z, epsilon);
     const double x = (radius - r) / (2 * epsilon), wall = 1 - std::exp(-x * x);
     const double wall_r = -x / epsilon * std::exp(-x * x);
-    constexpr double k = 0.1;
-    const double p = std::clamp(phi.value, -1.0, 1.0), tail = 1 - p * p * p * p, core = p * p / (p * p + k);
-    const double core_p = 2 * p * k / ((p * p + k) * (p * p + k)), layer_p = core_p * tail - 4 * p * p * p * core;
+    const double p = std::clamp(phi.value, -1.0, 1.0), tail = 1 - p * p * p * p;
     const double along_normal = layer.normal_r * phi.r + layer.normal_z * phi.z;
     const double divergence = normal_divergence(phi, r, 1e-4 / epsilon);
-    const double weight = core * tail * wall;
-    const double derivative = layer_p * along_normal * wall + core * tail * layer.normal_r * wall_r;
+    const double weight = tail * wall;
+    const double derivative = -4 * p * p * p * along_normal * wall + tail * layer.normal_r * wall_r;
     return {layer.normal_r, layer.normal_z, weight, weight * divergence + derivative};
 }
 
