@@ -84,7 +84,8 @@ Evaluation MembraneDynamics::evaluate(const Eigen::VectorXd& y) const {
                  {},
                  {}};
     e.flow = box_.solve(e.operators, e.samples, e.energy, energy_density_at_rim(space_, state, model_));
-    const Eigen::VectorXd tangential = mesh_.tangential_velocity(state, samples, e.flow.inflow);
+    const Eigen::VectorXd tangential =
+        mesh_.tangential_velocity(state, samples, e.flow.inflow, mesh_.relaxation_rate(e.flow.velocity));
     e.mesh_velocity = e.flow.velocity + tangential;
     const Eigen::VectorXd t_r = tangential.head(space_.radial_count());
     const Eigen::VectorXd t_z = tangential.tail(space_.axial_count());
@@ -127,7 +128,8 @@ Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
         return pack_rows(full);
     };
     const Eigen::MatrixXd rate_curve =
-        mesh_rate(velocity_curve) + pack_rows(pack_columns(mesh_.derivative_by_curve(e.state, e.samples)));
+        mesh_rate(velocity_curve) +
+        pack_rows(pack_columns(mesh_.derivative_by_curve(e.state, e.samples, mesh_.relaxation_rate(e.flow.velocity))));
     const Eigen::MatrixXd rate_c = mesh_rate(velocity_c);
 
     const TransportDerivatives transport =

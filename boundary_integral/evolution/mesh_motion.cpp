@@ -43,6 +43,19 @@ MeshMotion::MeshMotion(const MembraneSpace& space, const MeshDensity& density)
       antiderivative_(one_dimensional_matrix(space, space.radial_rows, space.radial_count(), 1.0, 0.0),
                       "antiderivative") {}
 
+double MeshMotion::relaxation_rate(const Eigen::VectorXd& velocity) const {
+    constexpr double slow_speed = 1.0;  // nm/us
+    constexpr double at_rest = 0.1;
+    const Eigen::VectorXd u_r = velocity.head(space_.radial_count()), u_z = velocity.tail(space_.axial_count());
+    double squared = 0.0;
+    for (std::size_t i = 0; i < space_.xi.size(); ++i) {
+        const double r = space_.radial_rows[i].evaluate(u_r), z = space_.axial_rows[i].evaluate(u_z);
+        squared += space_.weight[i] * (r * r + z * z);
+    }
+    const double speed = std::sqrt(squared);
+    return (at_rest + (1.0 - at_rest) * speed / (speed + slow_speed)) / density_.relaxation_time;
+}
+
 // rho - l^2 rho'' = wanted: neighbouring elements differ by a factor of at most exp(h/l).
 std::vector<double> MeshMotion::filtered_density(const MembraneSamples& samples) const {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(space_.axial_count());
@@ -93,12 +106,11 @@ Eigen::VectorXd MeshMotion::interpolate_tangential(const MembraneState& state, S
 }
 
 Eigen::VectorXd MeshMotion::tangential_velocity(const MembraneState& state, const MembraneSamples& samples,
-                                                double inflow) const {
+                                                double inflow, double rate) const {
     const Eigen::VectorXd numbers = wanted_numbers(samples);
     return interpolate_tangential(state, [&](double xi, const CurvePoint& p) {
         const BasisRow b = space_.radial().basis(xi);
-        return -inflow * inflow_profile(xi) -
-               (b.evaluate(numbers, 0) - xi) * p.g / (density_.relaxation_time * b.evaluate(numbers, 1));
+        return -inflow * inflow_profile(xi) - (b.evaluate(numbers, 0) - xi) * p.g * rate / b.evaluate(numbers, 1);
     });
 }
 
@@ -106,7 +118,8 @@ Eigen::VectorXd MeshMotion::derivative_by_inflow(const MembraneState& state) con
     return interpolate_tangential(state, [](double xi, const CurvePoint&) { return -inflow_profile(xi); });
 }
 
-Eigen::MatrixXd MeshMotion::derivative_by_curve(const MembraneState& state, const MembraneSamples& samples) const {
+Eigen::MatrixXd MeshMotion::derivative_by_curve(const MembraneState& state, const MembraneSamples& samples,
+                                                double rate) const {
     // delta N = S^-1 int B' rho delta g / total - N delta total/total, delta g = (r' delta r' + z' delta z')/g
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(space_.radial_count(), space_.curve_count());
     Eigen::RowVectorXd total_variation = Eigen::RowVectorXd::Zero(space_.curve_count());
@@ -139,7 +152,7 @@ Eigen::MatrixXd MeshMotion::derivative_by_curve(const MembraneState& state, cons
         Eigen::RowVectorXd change = Eigen::RowVectorXd::Zero(space_.curve_count());
         for (std::size_t j = 0; j < 6; ++j) change += b.value[0][j] * variation.row(b.index[j]);
         const double tangent = radial ? p.r1 : p.z1;  // t g
-        return -change * tangent / (density_.relaxation_time * b.evaluate(numbers, 1));
+        return -change * tangent * rate / b.evaluate(numbers, 1);
     };
     for (std::size_t i = 0; i < radial_points_.size(); ++i) r.row(static_cast<Index>(i)) = row(radial_points_[i], true);
     for (std::size_t i = 0; i < axial_points_.size(); ++i) z.row(static_cast<Index>(i)) = row(axial_points_[i], false);

@@ -23,15 +23,20 @@ class MeshMotion {
   public:
     MeshMotion(const MembraneSpace& space, const MeshDensity& density);
 
+    // Rate of the relaxation [1/us] for a membrane with this velocity (curve_count): 1/tau in motion, a tenth of it at
+    // rest. The mesh has to follow a membrane that moves, and must not be stiff on one that hardly does.
+    double relaxation_rate(const Eigen::VectorXd& velocity) const;
+
     // Tangential velocity field added to the material velocity, as coefficients (curve_count), nm/us:
-    //     alpha t,  alpha = -inflow xi^5 - (1/tau) (N - xi) g / N'
+    //     alpha t,  alpha = -inflow xi^5 - rate (N - xi) g / N'
     // N(xi): fraction of elements the density wants between the axis and xi.
-    Eigen::VectorXd tangential_velocity(const MembraneState& state, const MembraneSamples& samples,
-                                        double inflow) const;
+    Eigen::VectorXd tangential_velocity(const MembraneState& state, const MembraneSamples& samples, double inflow,
+                                        double rate) const;
 
     // Its derivative with respect to the inflow, and with respect to the curve at fixed density rho (relaxation only).
     Eigen::VectorXd derivative_by_inflow(const MembraneState& state) const;
-    Eigen::MatrixXd derivative_by_curve(const MembraneState& state, const MembraneSamples& samples) const;
+    Eigen::MatrixXd derivative_by_curve(const MembraneState& state, const MembraneSamples& samples,
+                                        double inflow) const;
 
     // The wanted element numbers N as radial coefficients; N(1) = 1.
     Eigen::VectorXd wanted_numbers(const MembraneSamples& samples) const;
@@ -42,6 +47,7 @@ class MeshMotion {
     std::vector<double> radial_points_, axial_points_;  // Greville points of the two spaces
     LuFactors radial_interpolation_, axial_interpolation_, filter_, antiderivative_;
 
+    double relaxation_rate(double inflow) const;                                 // 1/us
     std::vector<double> filtered_density(const MembraneSamples& samples) const;  // at the Gauss points
     template <class Speed>
     Eigen::VectorXd interpolate_tangential(const MembraneState& state, Speed speed) const;
