@@ -11,6 +11,7 @@ namespace endoflow::phasefield {
 namespace {
 
 constexpr double safety = 0.8;
+constexpr double worthwhile_growth = 1.2;  // a new step length costs a factorisation
 constexpr double smallest_fraction = 1e-4;  // of the first step
 
 }  // namespace
@@ -31,8 +32,8 @@ double StepControl::step(double time, double deadline) const {
 void StepControl::accept(double tau, double motion) {
     since_doubling += 1;
     const double allowed = motion > 0 ? tau * safety * max_motion_ / motion : std::numeric_limits<double>::infinity();
-    if (since_doubling >= ramp_steps_ && 2 * nominal <= allowed) {
-        nominal *= 2;
+    if (since_doubling >= ramp_steps_ && worthwhile_growth * nominal <= allowed) {
+        nominal = std::min(2 * nominal, allowed);
         since_doubling = 0;
     }
     nominal = std::min({nominal, limit_, allowed});
