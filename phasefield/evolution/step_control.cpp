@@ -11,7 +11,7 @@ namespace endoflow::phasefield {
 namespace {
 
 constexpr double safety = 0.8;
-constexpr double worthwhile_growth = 1.2;  // a new step length costs a factorisation
+constexpr double worthwhile_growth = 1.2;   // a new step length costs a factorisation
 constexpr double smallest_fraction = 1e-4;  // of the first step
 
 }  // namespace
