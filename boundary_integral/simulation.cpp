@@ -12,7 +12,9 @@
 #include "boundary_integral/evolution/membrane_dynamics.h"
 #include "boundary_integral/evolution/observation.h"
 #include "boundary_integral/evolution/stiff_integrator.h"
+#include "boundary_integral/fields/field_grid.h"
 #include "shared/geometry/observables.h"
+#include "shared/output/field_index.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
 
@@ -45,17 +47,19 @@ Checkpoint make_checkpoint(double time, const Eigen::VectorXd& y, const RunMemor
 class Run {
   public:
     Run(const Parameters& parameters, RunOutput& output)
-        : parameters_(parameters), output_(output), dynamics_(parameters), start_(restore()) {}
+        : parameters_(parameters), output_(output), dynamics_(parameters), start_(restore()), fields_(field_index()) {}
 
     ExitReason execute() {
         StiffIntegrator integrator(problem(), start_.time, start_.y,
                                    {memory_.next_step, parameters_.time.max_step, smallest_step});
         if (memory_.shapes_written == 0.0) write_first_shape();
+        if (!output_.restart_point()) write_fields(integrator);
         while (integrator.time() < parameters_.time.end) {
             if (interruption_signal() != 0) return stop(integrator, ExitReason::interrupted);
             const auto outcome = advance(integrator);
             record(integrator);
             write_shapes(integrator);
+            write_fields(integrator);
             if (outcome == StiffIntegrator::Outcome::event && memory_.budded == 0.0) {
                 record_budding(integrator);
                 if (parameters_.output.stop_at_budding) return stop(integrator, ExitReason::budded);
@@ -78,6 +82,7 @@ class Run {
     MembraneDynamics dynamics_;
     RunMemory memory_;
     Start start_;
+    FieldIndex fields_;
     Evaluation latest_;  // of the last rate the integrator asked for
     Eigen::VectorXd latest_vector_;
     long rejected_ = 0;
@@ -199,6 +204,31 @@ class Run {
         output_.write_shape(time,
                             membrane_curve(space, dynamics_.evaluate(y), shape_points_per_element * space.elements()));
         memory_.shapes_written += 1.0;
+    }
+
+    FieldIndex field_index() const {
+        const RunDirectory directory{output_.directory()};
+        return output_.restart_point() ? FieldIndex(directory, start_.time) : FieldIndex(directory);
+    }
+
+    // The first multiple of output.field_interval after the fields written so far and after a restart's beginning.
+    double next_field_time() const {
+        if (!fields_.latest() && !output_.restart_point()) return 0.0;
+        const double interval = parameters_.output.field_interval;
+        const double done = std::max(start_.time, fields_.latest().value_or(0.0));
+        const double count = std::floor(done / interval) + 1.0;
+        return (count * interval > done ? count : count + 1.0) * interval;
+    }
+
+    void write_fields(const StiffIntegrator& integrator) {
+        if (parameters_.output.field_interval <= 0.0) return;
+        for (double time = next_field_time(); time <= integrator.time(); time = next_field_time()) {
+            const PhaseTimer timer(output_, "fields");
+            const Evaluation evaluation =
+                dynamics_.evaluate(time < integrator.time() ? integrator.state_at(time) : integrator.state());
+            fields_.add(time, vtu_text(field_grid(parameters_, dynamics_, evaluation,
+                                                  parameters_.boundary_integral.field_spacing)));
+        }
     }
 
     void record_budding(const StiffIntegrator& integrator) {

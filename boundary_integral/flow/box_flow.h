@@ -66,6 +66,7 @@ class BoxFlow {
     Eigen::VectorXd wall_unknowns(const MobilityOperators& operators, const FlowSolution& flow) const;
 
     bool inextensible() const { return inextensible_; }
+    int threads() const { return threads_; }
 
   private:
     const MembraneSpace& space_;

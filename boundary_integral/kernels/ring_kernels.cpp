@@ -64,6 +64,21 @@ void stokeslet_loop(double r0, std::size_t count, const double* __restrict r, co
     }
 }
 
+// x.e_r = r - r0 + 2 r0 sigma and x.e_z = z - z0, with e_r that of the source.
+ENDOFLOW_VECTOR_CLONES
+void pressure_loop(double r0, std::size_t count, const double* __restrict r, const double* __restrict dr,
+                   const double* __restrict dz, double* __restrict p_r, double* __restrict p_z) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const double a = dr[i] * dr[i] + dz[i] * dz[i];
+        const double total = a + 4.0 * r[i] * r0;
+        const EllipticIntegrals elliptic = integrals_by_mean(a / total);
+        const double scale = 4.0 / std::sqrt(total);
+        const double i30 = scale * elliptic.e / a;
+        p_r[i] = dr[i] * i30 + 2.0 * r0 * scale * elliptic.d / total;
+        p_z[i] = dz[i] * i30;
+    }
+}
+
 ENDOFLOW_VECTOR_CLONES
 void full_loop(double r0, std::size_t count, const double* __restrict r, const double* __restrict dr,
                const double* __restrict dz, const double* __restrict nr, const double* __restrict offset,
@@ -122,6 +137,13 @@ void RingKernels::resize(std::size_t count) {
 
 EllipticIntegrals elliptic_integrals(double complementary_parameter) {
     return integrals_by_mean(complementary_parameter);
+}
+
+void evaluate_ring_pressures(double target_radius, const RingSources& sources, RingPressureKernels& kernels) {
+    kernels.p_r.resize(sources.size());
+    kernels.p_z.resize(sources.size());
+    pressure_loop(target_radius, sources.size(), sources.radius.data(), sources.delta_r.data(), sources.delta_z.data(),
+                  kernels.p_r.data(), kernels.p_z.data());
 }
 
 void evaluate_ring_stokeslets(double target_radius, const RingSources& sources, RingKernels& kernels) {

@@ -46,6 +46,13 @@ EllipticIntegrals elliptic_integrals(double complementary_parameter);
 // All eight kernels for one target radius r0 >= 0 (the axis r0 = 0 needs no special case).
 void evaluate_ring_kernels(double target_radius, const RingSources& sources, RingKernels& kernels);
 
+// The kernel of the pressure, int x / rho^3 dphi, in the source's frame: p(x0) = - 1/(4 pi) int (p_r q_r + p_z q_z) dA
+// for a single layer of density q. The surface measure r ds is NOT included.
+struct RingPressureKernels {
+    std::vector<double> p_r, p_z;  // [1/nm^2]
+};
+void evaluate_ring_pressures(double target_radius, const RingSources& sources, RingPressureKernels& kernels);
+
 // The four single-layer kernels alone.
 void evaluate_ring_stokeslets(double target_radius, const RingSources& sources, RingKernels& kernels);
 

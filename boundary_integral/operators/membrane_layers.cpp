@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boundary_integral/operators/closest_point.h"
 #include "boundary_integral/quadrature/singular_rules.h"
 #include "boundary_integral/support/parallel.h"
 
@@ -159,17 +160,7 @@ class Builder {
     }
 
     void add_near_element(const MembraneTarget& target, Index element, double begin, double end, double guess) {
-        double closest = guess;
-        CurvePoint p{};
-        for (int iteration = 0; iteration < 6; ++iteration) {  // Newton for (x - x0).x' = 0
-            p = curve_point(space_.radial().basis(closest, element), space_.axial().basis(closest, element), state_);
-            const double dr = p.r - target.at.r;
-            const double dz = p.z - target.at.z;
-            const double slope = std::max(p.g * p.g + dr * p.r2 + dz * p.z2, 0.2 * p.g * p.g);
-            const double next = std::clamp(closest - (dr * p.r1 + dz * p.z1) / slope, begin, end);
-            if (std::abs(next - closest) < 1e-10) break;
-            closest = next;
-        }
+        const auto [closest, p] = closest_on_element(space_, state_, element, target.at, guess);
         const double distance = std::hypot(p.r - target.at.r, p.z - target.at.z);
         const OffsetRule rule = near_singular_rule(begin, end, closest, std::max(distance, 1e-14) / p.g, near_rule_);
         for (std::size_t i = 0; i < rule.offsets.size(); ++i) {

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-
 #include "boundary_integral/quadrature/singular_rules.h"
 #include "boundary_integral/walls/wall_panels.h"
 
@@ -46,7 +43,6 @@ class Builder {
     RingKernels kernels_;
 
     void add_panel(const WallTarget& target, const WallPanel& panel) {
-        const WallSegment& segment = walls_.segments()[panel.segment];
         const std::size_t count = walls_.rule().nodes.size();
         const bool own = target.node >= panel.first_node && target.node < panel.first_node + static_cast<Index>(count);
         if (own) {
@@ -54,31 +50,13 @@ class Builder {
             add_points(target, panel, logarithmic_rule(panel.tau_begin, panel.tau_end, tau, wall_rule_));
             return;
         }
-        // Closest point of the straight panel, through the fraction of the segment.
-        const double length = segment.length();
-        const double along = ((target.at.r - segment.r_begin) * (segment.r_end - segment.r_begin) +
-                              (target.at.z - segment.z_begin) * (segment.z_end - segment.z_begin)) /
-                             (length * length);
-        const double low = segment.fraction(panel.tau_begin);
-        const double high = segment.fraction(panel.tau_end);
-        const double fraction = std::clamp(along, low, high);
-        const double distance =
-            std::hypot(segment.r_begin + fraction * (segment.r_end - segment.r_begin) - target.at.r,
-                       segment.z_begin + fraction * (segment.z_end - segment.z_begin) - target.at.z);
-        if (distance > near_distance * length * (high - low)) {
+        const PanelApproach approach = walls_.approach(panel, target.at);
+        if (approach.distance > near_distance * approach.length) {
             add_nodes(target, panel);
             return;
         }
-        double tau = segment.clustering == Clustering::both_ends
-                         ? std::acos(std::clamp(1.0 - 2.0 * fraction, -1.0, 1.0)) / std::acos(-1.0)
-                         : std::asin(std::clamp(fraction, 0.0, 1.0)) / std::acos(0.0);
-        tau = std::clamp(tau, panel.tau_begin, panel.tau_end);
-        // Where the map is stationary the width in tau is that of its quadratic part: whichever is smaller.
-        const double speed = length * segment.fraction_rate(tau);
-        const double curvature = length * std::acos(-1.0) * std::acos(-1.0) * 0.25;
-        const double width = 1.0 / (speed / distance + std::sqrt(curvature / distance));
         add_points(target, panel,
-                   near_singular_rule(panel.tau_begin, panel.tau_end, tau, width,
+                   near_singular_rule(panel.tau_begin, panel.tau_end, approach.tau, approach.width,
                                       target.node >= 0 ? wall_rule_ : membrane_rule_));
     }
 

@@ -1,5 +1,6 @@
 #include "boundary_integral/walls/wall_panels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -65,6 +66,29 @@ WallPanels::WallPanels(const DomainParameters& domain, const FluidParameters& fl
         const double x = rule_.nodes[i];
         barycentric_.push_back((i % 2 == 0 ? 1.0 : -1.0) * std::sqrt((1.0 - x * x) * rule_.weights[i]));
     }
+}
+
+PanelApproach WallPanels::approach(const WallPanel& panel, const Target& target) const {
+    // Closest point of the straight panel, through the fraction of the segment.
+    const WallSegment& segment = segments_[panel.segment];
+    const double length = segment.length();
+    const double along = ((target.r - segment.r_begin) * (segment.r_end - segment.r_begin) +
+                          (target.z - segment.z_begin) * (segment.z_end - segment.z_begin)) /
+                         (length * length);
+    const double low = segment.fraction(panel.tau_begin);
+    const double high = segment.fraction(panel.tau_end);
+    const double fraction = std::clamp(along, low, high);
+    const double distance = std::hypot(segment.r_begin + fraction * (segment.r_end - segment.r_begin) - target.r,
+                                       segment.z_begin + fraction * (segment.z_end - segment.z_begin) - target.z);
+    double tau = segment.clustering == Clustering::both_ends
+                     ? std::acos(std::clamp(1.0 - 2.0 * fraction, -1.0, 1.0)) / std::acos(-1.0)
+                     : std::asin(std::clamp(fraction, 0.0, 1.0)) / std::acos(0.0);
+    tau = std::clamp(tau, panel.tau_begin, panel.tau_end);
+    // Where the map is stationary the width in tau is that of its quadratic part: whichever is smaller.
+    const double speed = length * segment.fraction_rate(tau);
+    const double curvature = length * std::acos(-1.0) * std::acos(-1.0) * 0.25;
+    const double width = 1.0 / (speed / distance + std::sqrt(curvature / distance));
+    return {distance, length * (high - low), tau, width};
 }
 
 std::vector<double> WallPanels::lagrange(const WallPanel& panel, double tau) const {

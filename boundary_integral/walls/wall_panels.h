@@ -48,6 +48,14 @@ struct WallNode {
     double speed;  // ds/d tau, nm
 };
 
+// Where a panel comes closest to a target off the wall, for the near-singular rule.
+struct PanelApproach {
+    double distance;  // nm
+    double length;    // of the panel, nm
+    double tau;
+    double width;  // of the rule, in tau
+};
+
 // Unknown 2 i of node i is u_r; 2 i + 1 is u_z on free walls and t_z ds/d tau (pN/nm) in the band.
 class WallPanels {
   public:
@@ -59,6 +67,8 @@ class WallPanels {
     const QuadratureRule& rule() const { return rule_; }
     Index unknowns() const { return 2 * static_cast<Index>(nodes_.size()); }
     bool is_band(const WallNode& node) const { return segments_[node.segment].kind == WallKind::band; }
+
+    PanelApproach approach(const WallPanel& panel, const Target& target) const;
 
     // Values at tau of the Lagrange polynomials through the panel's nodes.
     std::vector<double> lagrange(const WallPanel& panel, double tau) const;

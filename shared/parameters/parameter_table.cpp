@@ -217,9 +217,12 @@ std::vector<ParameterRow> boundary_integral_rows() {
         row("boundary_integral", "mesh_smoothing", &P::boundary_integral, &S::mesh_smoothing, "", positive(1), "",
             "part of the mesh over which the element density is filtered, so that neighbours are similar"),
         row("boundary_integral", "mesh_relaxation_time", &P::boundary_integral, &S::mesh_relaxation_time, "µs",
-            positive(1e3), "", "time in which elements move to where they are wanted; ten times that when the membrane rests"),
+            positive(1e3), "",
+            "time in which elements move to where they are wanted; ten times that when the membrane rests"),
         row("boundary_integral", "neck_closed_radius", &P::boundary_integral, &S::neck_closed_radius, "nm",
             at_least(0, 10), "", "the run ends with neck_closed when the neck radius falls below this"),
+        row("boundary_integral", "field_spacing", &P::boundary_integral, &S::field_spacing, "nm", {0.1, 1e3}, "",
+            "distance of the points where fields are evaluated"),
     };
 }
 

@@ -85,6 +85,7 @@ struct BoundaryIntegralParameters {
     double mesh_smoothing = 0.05;
     double mesh_relaxation_time = 0.02;
     double neck_closed_radius = 0.05;
+    double field_spacing = 2;
 };
 
 struct TimeParameters {

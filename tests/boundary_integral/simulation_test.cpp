@@ -153,6 +153,30 @@ TEST_CASE("a restarted run goes on as if it had never stopped", "[run]") {
     CHECK(a.at("molecule_mass_nm2") == Approx(b.at("molecule_mass_nm2")).epsilon(1e-12));
 }
 
+TEST_CASE("fields are written at their interval, also after a restart", "[run]") {
+    const ScratchDirectory whole("whole-fields"), halves("halves-fields");
+    Parameters parameters = standard(32, 0.002);
+    parameters.output.field_interval = 0.0005;
+    parameters.boundary_integral.field_spacing = 20;
+    run(parameters, whole.path);
+    parameters.time.end = 0.0012;
+    run(parameters, halves.path);
+    parameters.time.end = 0.002;
+    run(parameters, halves.path, StartMode::restart);
+    const auto read = [](const fs::path& file) {
+        std::ifstream stream(file);
+        return std::string(std::istreambuf_iterator<char>(stream), {});
+    };
+    CHECK(read(whole.path / "fields.pvd") == read(halves.path / "fields.pvd"));
+    CHECK(fs::exists(whole.path / "fields" / "fields_000004.vtu"));
+    CHECK(!fs::exists(whole.path / "fields" / "fields_000005.vtu"));
+    CHECK(read(whole.path / "fields" / "fields_000002.vtu") == read(halves.path / "fields" / "fields_000002.vtu"));
+
+    parameters.output.field_interval = 0;
+    run(parameters, whole.path);
+    CHECK(!fs::exists(whole.path / "fields.pvd"));
+}
+
 TEST_CASE("a membrane that comes too near a wall stops the run with a name and a remedy", "[run]") {
     const ScratchDirectory scratch("wall");
     Parameters parameters = standard(32, 1);

@@ -1,0 +1,42 @@
+#pragma once
+
+// The membrane as layers of rings, with the near-singular rule where a target is near.
+
+#include <vector>
+
+#include "boundary_integral/fields/ring_layers.h"
+#include "boundary_integral/membrane/membrane_space.h"
+#include "boundary_integral/quadrature/gauss_legendre.h"
+
+namespace endoflow::boundary_integral {
+
+// Coefficients of what lives on the membrane.
+struct MembraneFlow {
+    Eigen::VectorXd velocity;  // curve_count, nm/us
+    Eigen::VectorXd force;     // force_count, of the membrane on the fluid, pN/nm^2
+};
+
+class MembraneSources {
+  public:
+    // contrast = nu1 - nu2, pN us/nm^2. Space, state and samples must outlive the object.
+    MembraneSources(const MembraneSpace& space, const MembraneState& state, const MembraneSamples& samples,
+                    const MembraneFlow& flow, double contrast);
+
+    void add_to(RingLayers& layers, const Target& target) const;
+
+  private:
+    const MembraneSpace& space_;
+    const MembraneState& state_;
+    const MembraneSamples& samples_;
+    double contrast_;
+    Eigen::VectorXd u_r_, u_z_, f_r_, f_z_;
+    QuadratureRule near_rule_;
+    std::vector<RingDensity> densities_;  // at the Gauss points
+    std::vector<double> lengths_;         // of the elements, nm
+
+    RingDensity density(const CurvePoint& p, const BasisRow& radial, const BasisRow& axial, const BasisRow& force,
+                        double weight) const;
+    void add_near_element(RingLayers& layers, const Target& target, Index element, double guess) const;
+};
+
+}  // namespace endoflow::boundary_integral

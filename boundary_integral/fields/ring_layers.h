@@ -1,0 +1,51 @@
+#pragma once
+
+// Velocity and pressure of layers of rings at one point off the surfaces. With x = source - target, Phi = grad(1/rho),
+// visc = nu1 - nu2 and n on the membrane, nu_k and the outward normal on a wall of phase k:
+//     8 pi nu u(x0) = int f.G dA - visc int u.T.n dA
+//     4 pi p(x0)    = int f.Phi dA - 2 visc int u_j n_k d_j d_k (1/rho) dA
+// Second derivatives of 1/rho are too singular to be integrated near the surface. As 1/rho is harmonic, n_k d_j Phi_k =
+// (n_k d_j - n_j d_k) Phi_k, which are derivatives along the surface; integrated by parts (the boundary terms of
+// membrane and walls cancel at the rim, where u is continuous and nu1 - (nu1 - nu2) - nu2 = 0):
+//     4 pi p(x0)    = int q.Phi dA,      q = f + 2 visc [ n div_Gamma u - (du/ds.n) t ]
+// The jump of p across the membrane is q.n = f.n + 2 (nu1 - nu2) div_Gamma u, as (A.17) wants.
+
+#include <vector>
+
+#include "boundary_integral/kernels/ring_kernels.h"
+#include "boundary_integral/operators/layer_block.h"
+
+namespace endoflow::boundary_integral {
+
+// Densities at one quadrature point times its measure r ds (no 2 pi).
+struct RingDensity {
+    double force_r, force_z;        // f [pN]
+    double momentum_r, momentum_z;  // visc u [pN nm]
+    double pressure_r, pressure_z;  // q [pN]
+};
+
+struct RingPoint {
+    double r, z, normal_r, normal_z;
+};
+
+// The quadrature points of all surfaces as one target sees them.
+class RingLayers {
+  public:
+    void start(const Target& target);
+    void add(const RingPoint& point, const RingDensity& density);
+
+    struct Sum {
+        double momentum_r, momentum_z;  // 8 pi nu u [pN/nm]
+        double pressure;                // p [pN/nm^2]
+    };
+    Sum evaluate();
+
+  private:
+    Target target_;
+    RingSources sources_;
+    std::vector<RingDensity> densities_;
+    RingKernels kernels_;
+    RingPressureKernels pressures_;
+};
+
+}  // namespace endoflow::boundary_integral

@@ -1,0 +1,23 @@
+#pragma once
+
+// The point of the membrane that is closest to a target off it.
+
+#include "boundary_integral/membrane/membrane_space.h"
+#include "boundary_integral/operators/layer_block.h"
+
+namespace endoflow::boundary_integral {
+
+struct ClosestPoint {
+    double xi;
+    CurvePoint point;
+};
+
+// Closest point of one element by Newton's method from a guess in it, e.g. its closest Gauss point.
+ClosestPoint closest_on_element(const MembraneSpace& space, const MembraneState& state, Index element,
+                                const Target& target, double guess);
+
+// Closest point of the whole membrane; the Gauss points tell the element.
+ClosestPoint closest_on_membrane(const MembraneSpace& space, const MembraneState& state, const MembraneSamples& samples,
+                                 const Target& target);
+
+}  // namespace endoflow::boundary_integral

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shared/output/run_directory.h"
+
+namespace endoflow {
+
+/// The field files of a run and fields.pvd, the list of them that ParaView opens.
+class FieldIndex {
+  public:
+    /// A fresh run has no fields yet.
+    explicit FieldIndex(RunDirectory directory);
+    /// A restart: goes on with those up to `last_time_us`; later ones are dropped from the list. Throws IoError.
+    FieldIndex(RunDirectory directory, double last_time_us);
+
+    /// Writes fields/fields_NNNNNN.vtu with this content, then the list, each atomically. Throws IoError.
+    void add(double time_us, const std::string& vtu);
+
+    /// When the latest fields are from, µs.
+    [[nodiscard]] std::optional<double> latest() const;
+
+  private:
+    RunDirectory directory_;
+    std::vector<double> times_;
+
+    void write_list() const;
+};
+
+}  // namespace endoflow
