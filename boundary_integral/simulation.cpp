@@ -8,7 +8,9 @@
 #include <numbers>
 #include <string>
 #include <thread>
+#include <utility>
 
+#include "boundary_integral/evolution/material_strain.h"
 #include "boundary_integral/evolution/membrane_dynamics.h"
 #include "boundary_integral/evolution/observation.h"
 #include "boundary_integral/evolution/stiff_integrator.h"
@@ -28,36 +30,43 @@ constexpr double smallest_step = 1e-14;  // us
 // What the run remembers beside the state vector.
 struct RunMemory {
     double next_step = 0.0;       // us
-    double strain_bound = 0.0;    // time integral of the largest |div_Gamma u|
     double shapes_written = 0.0;  // number of output times done
     double budded = 0.0;          // 1 once the budding event is recorded
 };
 
-Checkpoint make_checkpoint(double time, const Eigen::VectorXd& y, const RunMemory& memory) {
+Checkpoint make_checkpoint(double time, const Eigen::VectorXd& y, const MaterialStrain& strain,
+                           const RunMemory& memory) {
     Checkpoint checkpoint;
     checkpoint.time_us = time;
-    checkpoint.scalars = {{"next_step", memory.next_step},
-                          {"strain_bound", memory.strain_bound},
-                          {"shapes_written", memory.shapes_written},
-                          {"budded", memory.budded}};
-    checkpoint.arrays["state"] = std::vector<double>(y.begin(), y.end());
+    checkpoint.scalars = {
+        {"next_step", memory.next_step}, {"shapes_written", memory.shapes_written}, {"budded", memory.budded}};
+    checkpoint.arrays = {{"state", std::vector<double>(y.begin(), y.end())},
+                         {"marker_xi", strain.markers().xi},
+                         {"marker_log_growth", strain.markers().log_growth}};
     return checkpoint;
 }
 
 class Run {
   public:
     Run(const Parameters& parameters, RunOutput& output)
-        : parameters_(parameters), output_(output), dynamics_(parameters), start_(restore()), fields_(field_index()) {}
+        : parameters_(parameters),
+          output_(output),
+          dynamics_(parameters),
+          strain_(dynamics_.space()),
+          start_(restore()),
+          fields_(field_index()) {}
 
     ExitReason execute() {
         StiffIntegrator integrator(problem(), start_.time, start_.y,
                                    {memory_.next_step, parameters_.time.max_step, smallest_step});
+        strain_rates_ = strain_.rates(dynamics_.evaluate(start_.y));
         if (memory_.shapes_written == 0.0) write_first_shape();
         if (!output_.restart_point()) write_fields(integrator);
         while (integrator.time() < parameters_.time.end) {
             if (interruption_signal() != 0) return stop(integrator, ExitReason::interrupted);
+            const double before = integrator.time();
             const auto outcome = advance(integrator);
-            record(integrator);
+            record(integrator, before);
             write_shapes(integrator);
             write_fields(integrator);
             if (outcome == StiffIntegrator::Outcome::event && memory_.budded == 0.0) {
@@ -66,7 +75,7 @@ class Run {
             }
             if (neck_closed_) return stop(integrator, ExitReason::neck_closed);
             if (output_.checkpoint_due())
-                output_.write_checkpoint(make_checkpoint(integrator.time(), integrator.state(), memory_));
+                output_.write_checkpoint(make_checkpoint(integrator.time(), integrator.state(), strain_, memory_));
         }
         return stop(integrator, ExitReason::done);
     }
@@ -81,6 +90,8 @@ class Run {
     RunOutput& output_;
     MembraneDynamics dynamics_;
     RunMemory memory_;
+    MaterialStrain strain_;
+    MaterialRates strain_rates_;  // at the last accepted state
     Start start_;
     FieldIndex fields_;
     Evaluation latest_;  // of the last rate the integrator asked for
@@ -98,8 +109,8 @@ class Run {
                 "the checkpoint in " + output_.directory().string() +
                 " was made with another number of elements; restart with the same boundary_integral.elements");
         }
-        memory_ = {checkpoint->scalar("next_step"), checkpoint->scalar("strain_bound"),
-                   checkpoint->scalar("shapes_written"), checkpoint->scalar("budded")};
+        memory_ = {checkpoint->scalar("next_step"), checkpoint->scalar("shapes_written"), checkpoint->scalar("budded")};
+        strain_.restore({checkpoint->array("marker_xi"), checkpoint->array("marker_log_growth")});
         return {checkpoint->time_us, Eigen::Map<const Eigen::VectorXd>(state.data(), static_cast<Index>(state.size()))};
     }
 
@@ -133,7 +144,7 @@ class Run {
         return outcome;
     }
 
-    void record(const StiffIntegrator& integrator) {
+    void record(const StiffIntegrator& integrator, double time_before) {
         const PhaseTimer timer(output_, "observables");
         const MembraneSpace& space = dynamics_.space();
         const Evaluation accepted = dynamics_.evaluate(integrator.state());
@@ -154,9 +165,10 @@ class Run {
         row.bending_energy_pN_nm =
             2.0 * std::numbers::pi * bending_energy(space, state, dynamics_.model(), Derivatives::first).energy;
         row.molecule_mass_nm2 = shape.mass;
-        memory_.strain_bound +=
-            integrator.last_step() * largest_divergence(space, accepted.samples, accepted.flow.velocity);
-        row.area_strain_max = memory_.strain_bound;
+        MaterialRates strain_rates = strain_.rates(accepted);
+        strain_.advance(strain_rates_, strain_rates, integrator.time() - time_before);
+        strain_rates_ = std::move(strain_rates);
+        row.area_strain_max = strain_.largest();
         row.volume_extracellular_nm3 = shape.extracellular_volume;
         row.extra = own_columns(integrator, accepted, shape);
         output_.record_step(row);
@@ -244,7 +256,7 @@ class Run {
     }
 
     ExitReason stop(const StiffIntegrator& integrator, ExitReason reason) {
-        output_.write_checkpoint(make_checkpoint(integrator.time(), integrator.state(), memory_));
+        output_.write_checkpoint(make_checkpoint(integrator.time(), integrator.state(), strain_, memory_));
         const auto statistics = integrator.statistics();
         output_.note("integrator", {{"steps", statistics.steps},
                                     {"rate_evaluations", statistics.rate_evaluations},

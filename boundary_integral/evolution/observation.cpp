@@ -66,20 +66,6 @@ ShapeIntegrals shape_integrals(const MembraneSpace& space, const MembraneState& 
     return result;
 }
 
-double largest_divergence(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& velocity) {
-    const Eigen::VectorXd u_r = velocity.head(space.radial_count());
-    const Eigen::VectorXd u_z = velocity.tail(space.axial_count());
-    double largest = 0.0;
-    for (std::size_t i = 0; i < space.xi.size(); ++i) {
-        const CurvePoint& p = samples.curve[i];
-        const BasisRow& radial = space.radial_rows[i];
-        const double stretching =
-            (p.r1 * radial.evaluate(u_r, 1) + p.z1 * space.axial_rows[i].evaluate(u_z, 1)) / (p.g * p.g);
-        largest = std::max(largest, std::abs(stretching + radial.evaluate(u_r, 0) / p.r));
-    }
-    return largest;
-}
-
 double EnergyBalance::residual() const {
     return std::abs(energy_rate + dissipated_power - diffusive_power) / (std::abs(dissipated_power) + 1e-300);
 }

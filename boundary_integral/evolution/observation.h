@@ -28,10 +28,6 @@ struct ShapeIntegrals {
 };
 ShapeIntegrals shape_integrals(const MembraneSpace& space, const MembraneState& state, const DomainParameters& domain);
 
-// Largest |div_Gamma u| on the membrane, 1/us: what is left of the inextensibility constraint between the test
-// functions.
-double largest_divergence(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& velocity);
-
 // Energy balance of a state: rate of E along the computed motion against the power given to the fluid, the energy that
 // inflowing membrane brings along and the energy that diffusion of the molecules brings.
 struct EnergyBalance {

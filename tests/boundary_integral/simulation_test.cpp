@@ -111,6 +111,7 @@ TEST_CASE("the early motion of the standard case is the reference's", "[run]") {
     for (const auto& row : history) {
         CHECK(row.at("molecule_mass_nm2") == Approx(history.front().at("molecule_mass_nm2")).epsilon(1e-12));
         CHECK(row.at("force_balance_relative") < 1e-8);
+        CHECK(row.at("area_strain_max") < 1e-3);
     }
 }
 
@@ -151,6 +152,7 @@ TEST_CASE("a restarted run goes on as if it had never stopped", "[run]") {
     CHECK(a.at("bud_height_nm") == Approx(b.at("bud_height_nm")).epsilon(1e-4));
     CHECK(a.at("bending_energy_pN_nm") == Approx(b.at("bending_energy_pN_nm")).epsilon(1e-4));
     CHECK(a.at("molecule_mass_nm2") == Approx(b.at("molecule_mass_nm2")).epsilon(1e-12));
+    CHECK(a.at("area_strain_max") == Approx(b.at("area_strain_max")).epsilon(0.1));
 }
 
 TEST_CASE("fields are written at their interval, also after a restart", "[run]") {
