@@ -2,6 +2,7 @@
 
 #include "boundary_integral/simulation.h"
 #include "command_line.h"
+#include "engine_run.h"
 #include "shared/output/run_output.h"
 #include "shared/support/interruption.h"
 
@@ -15,14 +16,7 @@ int run(int argc, char** argv) {
     install_signal_handlers();
     RunOutput output(request->parameters, boundary_integral::identity(), request->directory,
                      request->restart ? StartMode::restart : StartMode::fresh);
-    try {
-        const ExitReason reason = boundary_integral::simulate(request->parameters, output);
-        output.finish(reason);
-        return reason == ExitReason::interrupted ? exit_code_of_signal(interruption_signal()) : 0;
-    } catch (const std::exception& failure) {
-        output.finish_with_error(failure.what());
-        throw;
-    }
+    return run_to_the_end(output, [&] { return boundary_integral::simulate(request->parameters, output); });
 }
 
 }  // namespace

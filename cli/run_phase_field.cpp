@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "command_line.h"
+#include "engine_run.h"
 #include "phasefield/simulation.h"
 #include "shared/output/run_output.h"
 #include "shared/support/error.h"
@@ -44,14 +45,7 @@ int run(int argc, char** argv, int rank, int processes) {
     if (!request) return 0;
     install_signal_handlers();
     const auto output = open_output(*request, rank, processes);
-    try {
-        const ExitReason reason = phasefield::simulate(request->parameters, *output, MPI_COMM_WORLD);
-        output->finish(reason);
-        return reason == ExitReason::interrupted ? exit_code_of_signal(interruption_signal()) : 0;
-    } catch (const std::exception& failure) {
-        output->finish_with_error(failure.what());
-        throw;
-    }
+    return run_to_the_end(*output, [&] { return phasefield::simulate(request->parameters, *output, MPI_COMM_WORLD); });
 }
 
 /// One process speaks for all. A failure need not have reached the others, which may be waiting for this process, so

@@ -2,6 +2,7 @@
 
 #include "boundary_integral/statics/simulation.h"
 #include "command_line.h"
+#include "engine_run.h"
 #include "shared/output/run_output.h"
 #include "shared/parameters/case_file.h"
 #include "shared/support/interruption.h"
@@ -33,14 +34,7 @@ int run(int argc, char** argv) {
 
     install_signal_handlers();
     RunOutput output(parameters, statics::identity(), directory, StartMode::fresh);
-    try {
-        const ExitReason reason = statics::simulate(parameters, request, output);
-        output.finish(reason);
-        return reason == ExitReason::interrupted ? exit_code_of_signal(interruption_signal()) : 0;
-    } catch (const std::exception& failure) {
-        output.finish_with_error(failure.what());
-        throw;
-    }
+    return run_to_the_end(output, [&] { return statics::simulate(parameters, request, output); });
 }
 
 }  // namespace

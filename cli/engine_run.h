@@ -1,0 +1,25 @@
+#pragma once
+
+#include <exception>
+
+#include "command_line.h"
+#include "shared/output/run_output.h"
+#include "shared/support/interruption.h"
+
+namespace endoflow::cli {
+
+/// Calls simulate(), which returns an ExitReason, and gives the run's directory its last word, whatever happens.
+/// Returns the exit code; exceptions pass on.
+template <class Simulation>
+[[nodiscard]] int run_to_the_end(RunOutput& output, const Simulation& simulate) {
+    try {
+        const ExitReason reason = simulate();
+        output.finish(reason);
+        return reason == ExitReason::interrupted ? exit_code_of_signal(interruption_signal()) : 0;
+    } catch (const std::exception& failure) {
+        output.finish_with_error(failure.what());
+        throw;
+    }
+}
+
+}  // namespace endoflow::cli
