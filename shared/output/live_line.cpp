@@ -11,6 +11,7 @@ namespace {
 
 constexpr double seconds_between_updates = 0.1;
 constexpr double seconds_between_plain_lines = 10;
+constexpr double least_progress_to_extrapolate = 0.005;
 
 }  // namespace
 
@@ -23,7 +24,7 @@ std::string format_duration(double seconds) {
 
 LiveLine::LiveLine(std::FILE* stream, double start_time_us, double end_time_us)
     : stream_(stream),
-      terminal_(isatty(fileno(stream)) != 0),
+      terminal_(isatty(fileno(stream)) != 0 && isatty(STDERR_FILENO) != 0),
       start_time_us_(start_time_us),
       end_time_us_(end_time_us),
       begin_(Clock::now()),
@@ -40,7 +41,7 @@ void LiveLine::update(const HistoryRow& row) {
     const std::string line =
         fmt::format("t = {:.5g} of {:g} µs   step {:.3g} µs   neck {}   height {:.2f} nm   strain {:.1e}   left {}",
                     row.time_us, end_time_us_, row.step_us, neck, row.bud_height_nm, row.area_strain_max,
-                    format_duration(elapsed * (1 - done) / done));
+                    format_duration(done < least_progress_to_extrapolate ? NAN : elapsed * (1 - done) / done));
     if (terminal_)
         fmt::print(stream_, "\r\x1b[K{}", line);
     else

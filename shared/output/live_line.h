@@ -7,7 +7,8 @@
 
 namespace endoflow {
 
-/// Tells how far a run is: one line that is rewritten on a terminal, a plain line now and then elsewhere.
+/// Tells how far a run is: one line that is rewritten on a terminal, a plain line now and then elsewhere. Elsewhere
+/// includes mpirun, which gives its processes a terminal as stdout, but not as stderr, wherever its own output goes.
 class LiveLine {
   public:
     LiveLine(std::FILE* stream, double start_time_us, double end_time_us);
