@@ -14,9 +14,8 @@ double value_at(const dealii::FE_Q<2>& element, const std::vector<double>& coeff
 
 }  // namespace
 
-CellContour::CellContour(const Spaces& spaces, double epsilon, unsigned int subdivisions)
+CellContour::CellContour(const Spaces& spaces, unsigned int subdivisions)
     : spaces_(&spaces),
-      epsilon_(epsilon),
       subdivisions_(subdivisions),
       phi_element_(spaces.flow.degrees[phi]),
       velocity_element_(spaces.flow.degrees[u_r]),

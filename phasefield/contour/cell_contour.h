@@ -11,7 +11,7 @@ namespace endoflow::phasefield {
 /// end points found as roots of the polynomial φ along the lattice lines.
 class CellContour {
   public:
-    CellContour(const Spaces& spaces, double epsilon, unsigned int subdivisions);
+    CellContour(const Spaces& spaces, unsigned int subdivisions);
     void add_segments(const dealii::DoFHandler<2>::active_cell_iterator& flow_cell, const State& state,
                       std::vector<ContourSegment>& segments);
 
@@ -25,7 +25,6 @@ class CellContour {
     void add_square(unsigned int i, unsigned int k, std::vector<ContourSegment>& segments) const;
 
     const Spaces* spaces_;
-    double epsilon_;
     unsigned int subdivisions_;
     dealii::FE_Q<2> phi_element_, velocity_element_, tension_element_, molecule_element_;
     std::vector<std::vector<double>> lattice_shapes_;

@@ -43,7 +43,7 @@ MembraneCurve to_curve(const ContourChain& chain) {
 }  // namespace
 
 Contour extract_contour(const Spaces& spaces, const State& state, const Parameters& p) {
-    CellContour cell_contour(spaces, p.phase_field.epsilon, subdivisions);
+    CellContour cell_contour(spaces, subdivisions);
     std::vector<ContourSegment> segments;
     for (const auto& cell : spaces.flow.dofs.active_cell_iterators())
         if (cell->is_locally_owned()) cell_contour.add_segments(cell, state, segments);
