@@ -21,7 +21,7 @@ void make_directory(const fs::path& directory) {
 
 fs::path unused_number(const fs::path& directory) {
     for (int number = 1;; ++number)
-        if (const auto candidate = directory / std::to_string(number); !fs::exists(candidate)) return candidate;
+        if (auto candidate = directory / std::to_string(number); !fs::exists(candidate)) return candidate;
 }
 
 }  // namespace

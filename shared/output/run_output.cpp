@@ -20,7 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uintmax_t largest_record = std::uintmax_t{1} << 26;
 constexpr const char* record_in_checkpoint = "run_record";
 
 double wall_seconds() {
@@ -273,7 +272,8 @@ void RunOutput::finish_with_error(const std::string& message) {
 PhaseTimer::PhaseTimer(RunOutput& output, std::string phase)
     : output_(output), phase_(std::move(phase)), wall_start_(wall_seconds()), cpu_start_(cpu_seconds()) {}
 
-PhaseTimer::~PhaseTimer() {
+// Nothing but a lack of memory can throw here, and that may end the program.
+PhaseTimer::~PhaseTimer() {  // NOLINT(bugprone-exception-escape)
     output_.add_phase_time(phase_, wall_seconds() - wall_start_, cpu_seconds() - cpu_start_);
 }
 

@@ -92,7 +92,7 @@ class RunOutput {
 class PhaseTimer {
   public:
     PhaseTimer(RunOutput& output, std::string phase);
-    ~PhaseTimer();
+    ~PhaseTimer();  // NOLINT(bugprone-exception-escape)
     PhaseTimer(const PhaseTimer&) = delete;
     PhaseTimer& operator=(const PhaseTimer&) = delete;
 

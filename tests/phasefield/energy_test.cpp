@@ -32,7 +32,7 @@ void displace(const Space& space, double amplitude, Vector& flow) {
 }
 
 /// f and g that belong to φ: a vanishing time step leaves φ alone and solves (36) and (37).
-State equilibrate(Discretization& d, State state) {
+State equilibrate(Discretization& d, const State& state) {
     d.coupled.forget_factors();
     return advance(d, state, 1e-13);
 }
