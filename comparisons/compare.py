@@ -9,10 +9,8 @@ import json
 import sys
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
-
-BAD_COMMAND_LINE, IO_FAILURE, INTERRUPTED = 2, 4, 130
+import project_path  # noqa: F401
+from commands import start
 
 
 def parsed(arguments):
@@ -65,33 +63,9 @@ def summary_lines(metrics, output):
     ]
 
 
-def main(arguments):
+def compare(options):
     """Run the command; returns its exit code."""
-    options = parsed(arguments)
-    try:
-        import plots  # noqa: F401  (everything that needs matplotlib)
-        from endoflow import EndoflowError
-        from metrics import NoCommonTimeError
-    except ImportError as error:
-        print(
-            f"endoflow compare: {error}; install python3-numpy python3-scipy python3-h5py python3-matplotlib",
-            file=sys.stderr,
-        )
-        return IO_FAILURE
-    try:
-        metrics = write_comparison(options.a, options.b, options.output)
-    except (EndoflowError, NoCommonTimeError) as error:
-        print(f"endoflow compare: {error}", file=sys.stderr)
-        return IO_FAILURE
-    except OSError as error:
-        print(
-            f"endoflow compare: {error.filename}: {error.strerror}; choose another directory with -o", file=sys.stderr
-        )
-        return IO_FAILURE
-    except Exception as error:  # a user never meets a stack trace; what is wrong here is ours
-        problem = f"{type(error).__name__}: {error}".splitlines()[0]
-        print(f"endoflow compare: unexpected {problem}; please report this with both run directories", file=sys.stderr)
-        return IO_FAILURE
+    metrics = write_comparison(options.a, options.b, options.output)
     for warning in metrics["warnings"]:
         print(f"endoflow compare: warning: {warning}", file=sys.stderr)
     print("\n".join(summary_lines(metrics, options.output)))
@@ -99,7 +73,4 @@ def main(arguments):
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main(sys.argv[1:]))
-    except KeyboardInterrupt:
-        sys.exit(INTERRUPTED)
+    start("compare", parsed, compare)

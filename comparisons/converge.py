@@ -6,20 +6,15 @@ plots and report.html. Exit codes: 0 done; 2 bad command line or parameter; 3 a 
 143 interrupted (run it again to continue).
 """
 
-import argparse
 import json
 import sys
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
-
-from study_command import (  # noqa: E402  (lies beside this file)
-    BAD_INPUT,
-    RUN_FAILED,
-    add_run_options,
+import project_path  # noqa: F401
+from commands import BAD_INPUT, RUN_FAILED, start
+from study_command import (
+    case_parser,
     common_settings,
-    guarded,
     lock,
     output_directory,
     program,
@@ -30,13 +25,7 @@ from study_command import (  # noqa: E402  (lies beside this file)
 
 def parsed(arguments):
     """The command line as a namespace."""
-    parser = argparse.ArgumentParser(
-        prog="endoflow converge",
-        description="Compare phase-field runs of decreasing ε with the sharp membrane.",
-        allow_abbrev=False,
-        epilog="Finished runs are not repeated and interrupted ones are continued when the command is given again.",
-    )
-    add_run_options(parser, "converge")
+    parser = case_parser("converge", "Compare phase-field runs of decreasing ε with the sharp membrane.")
     parser.add_argument("--epsilon", metavar="E1,E2,...", required=True, help="values of phase_field.epsilon in nm")
     parser.add_argument(
         "--cells-per-epsilon", metavar="X", help="phase_field.cell_size = ε/X (default: the case's ratio)"
@@ -68,14 +57,14 @@ def study_members(options, output):
     if options.cells_per_epsilon is not None:
         ratio = 1 / positive_numbers(options.cells_per_epsilon, "--cells-per-epsilon")[0]
     name = "boundary-integral"
-    sharp = Member(name, output / name, name, tuple(base), {}, case)
+    sharp = Member(name, options.case, output / name, name, tuple(base), {}, case)
     diffuse = []
     for epsilon in sorted(positive_numbers(options.epsilon, "--epsilon"), reverse=True):
         values = {"phase_field.epsilon": f"{epsilon:.12g}", "phase_field.cell_size": f"{ratio * epsilon:.12g}"}
         settings = (*base, *(f"{key}={value}" for key, value in values.items()))
         name = f"epsilon={epsilon:.12g}"
         parameters = resolved_parameters(program(), options.case, settings)
-        diffuse.append(Member(name, output / name, "phase-field", settings, values, parameters))
+        diffuse.append(Member(name, options.case, output / name, "phase-field", settings, values, parameters))
     return sharp, diffuse
 
 
@@ -168,14 +157,5 @@ def converge(options):
         return RUN_FAILED if failed else 0
 
 
-def main(arguments):
-    """Run the command; returns its exit code."""
-    options = parsed(arguments)
-    return guarded("converge", lambda: converge(options))
-
-
 if __name__ == "__main__":
-    try:
-        sys.exit(main(sys.argv[1:]))
-    except KeyboardInterrupt:
-        sys.exit(130)
+    start("converge", parsed, converge)

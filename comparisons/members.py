@@ -30,9 +30,10 @@ class StudyError(Exception):
 
 @dataclass(frozen=True)
 class Member:
-    """One run. settings: ("section.key=value", …); values: {varied key: text}; parameters: resolved, by section."""
+    """One run. case: its file; settings: ("section.key=value", …); values: {varied key: text}; parameters: resolved, by section."""
 
     name: str
+    case: Path
     directory: Path
     engine: str
     settings: tuple
@@ -117,10 +118,10 @@ def differing_parameters(found, wanted, engine):
     ]
 
 
-def run_command(program, case, member, work, processes=1, mpirun=("mpirun",)):
+def run_command(program, member, work, processes=1, mpirun=("mpirun",)):
     """The command line (list of str) that runs a member."""
     launcher = [*mpirun, "-n", str(processes)] if processes > 1 and member.engine == "phase-field" else []
     settings = [part for setting in member.settings for part in ("--set", setting)]
     restart = ["--restart"] if work == CONTINUE else []
-    run = [str(program), "run", member.engine, str(case), *settings, "-o", str(member.directory), *restart]
+    run = [str(program), "run", member.engine, str(member.case), *settings, "-o", str(member.directory), *restart]
     return launcher + run

@@ -9,8 +9,7 @@ import argparse
 import sys
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
+import project_path  # noqa: F401
 
 #: Moments shown, as fractions of the later budding time (or of the common time when no run buds).
 MOMENTS = (0.06, 0.2, 0.5, 1.0)
@@ -72,7 +71,7 @@ def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("a", type=Path, metavar="DIR_A")
     parser.add_argument("b", type=Path, metavar="DIR_B")
-    parser.add_argument("-o", "--output", type=Path, default=HERE.parent / "docs" / "images" / "hero.png")
+    parser.add_argument("-o", "--output", type=Path, default=Path(__file__).resolve().parents[1] / "docs" / "images" / "hero.png")
     options = parser.parse_args(arguments)
 
     import endoflow

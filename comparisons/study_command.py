@@ -1,22 +1,27 @@
-"""What `endoflow converge` and `endoflow sweep` share: options, running the members, messages and exit codes."""
+"""What the commands that run many members share: options, running the members, messages."""
 
+import argparse
 import contextlib
 import fcntl
 import os
 import sys
 from pathlib import Path
 
-BAD_INPUT, RUN_FAILED, IO_FAILURE, INTERRUPTED = 2, 3, 4, 130
+from commands import BAD_INPUT, IO_FAILURE, positive_integer
 
 
-def add_run_options(parser, study):
-    """The options of both commands; `study` names the default directory."""
-    parser.add_argument("case", metavar="CASE.toml", type=Path, help="case file")
-    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help=f"where to write (default: out/CASE/{study})")
+def study_parser(study, description, output):
+    """Parser of `endoflow STUDY` with the options every study has; output: what -o defaults to, for the help."""
+    parser = argparse.ArgumentParser(
+        prog=f"endoflow {study}",
+        description=description,
+        allow_abbrev=False,
+        epilog="Finished runs are not repeated and interrupted ones are continued when the command is given again.",
+    )
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help=f"where to write (default: {output})")
     parser.add_argument(
         "--set", metavar="section.key=value", action="append", default=[], help="for every run; may be repeated"
     )
-    parser.add_argument("--until", metavar="T", help="time.end in µs")
     parser.add_argument("--jobs", metavar="N", type=positive_integer, help="most runs at a time (default: all cores)")
     parser.add_argument(
         "--processes",
@@ -25,13 +30,15 @@ def add_run_options(parser, study):
         default=1,
         help="MPI processes of each phase-field run (default: 1)",
     )
+    return parser
 
 
-def positive_integer(text):
-    """For argparse."""
-    if not text.isdigit() or int(text) == 0:
-        raise ValueError(text)
-    return int(text)
+def case_parser(study, description):
+    """Parser of a study of one case."""
+    parser = study_parser(study, description, f"out/CASE/{study}")
+    parser.add_argument("case", metavar="CASE.toml", type=Path, help="case file")
+    parser.add_argument("--until", metavar="T", help="time.end in µs")
+    return parser
 
 
 def common_settings(options):
@@ -40,7 +47,7 @@ def common_settings(options):
 
 
 def output_directory(options, study):
-    """Where the study is written."""
+    """Where the study of a case is written."""
     return options.output or Path("out") / options.case.stem / study
 
 
@@ -64,7 +71,8 @@ def lock(directory):
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
-            raise StudyError(f"{directory}: another study is at work here; wait, or choose another -o", 4) from None
+            message = f"{directory}: another study is at work here; wait, or choose another -o"
+            raise StudyError(message, IO_FAILURE) from None
         yield
 
 
@@ -83,7 +91,7 @@ def run_members(members, options, interruption):
     # Without it, every mpirun would bind its processes to the same first cores.
     mpirun = ("mpirun", "--bind-to", "none") if parallel > 1 else ("mpirun",)
     tasks = [
-        Task(member, run_command(program(), options.case, member, work[member.name], options.processes, mpirun))
+        Task(member, run_command(program(), member, work[member.name], options.processes, mpirun))
         for member in members
         if work[member.name] != FINISHED
     ]
@@ -102,34 +110,3 @@ def report_failures(command, outcomes):
     for name, message in failed.items():
         print(f"endoflow {command}: {name}: {message}", file=sys.stderr)
     return len(failed)
-
-
-def guarded(command, body):
-    """Call body() for an exit code; whatever it raises becomes one line on stderr and an exit code."""
-
-    def complain(text, code):
-        print(f"endoflow {command}: {text}", file=sys.stderr)
-        return code
-
-    try:
-        from endoflow import EndoflowError
-        from members import StudyError
-        from ranges import RangeError
-
-        try:
-            return body()
-        except RangeError as error:
-            return complain(error, BAD_INPUT)
-        except StudyError as error:
-            return complain(error, error.exit_code)
-        except EndoflowError as error:
-            return complain(error, IO_FAILURE)
-    except KeyboardInterrupt:
-        return INTERRUPTED
-    except ImportError as error:
-        return complain(f"{error}; install python3-numpy python3-scipy python3-h5py python3-matplotlib", IO_FAILURE)
-    except OSError as error:
-        return complain(f"{error.filename}: {error.strerror}; choose another directory with -o", IO_FAILURE)
-    except Exception as error:  # a user never meets a stack trace; what is wrong here is ours
-        problem = f"{type(error).__name__}: {error}".splitlines()[0]
-        return complain(f"unexpected {problem}; please report this with the command line", IO_FAILURE)

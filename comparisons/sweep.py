@@ -5,18 +5,14 @@ Writes sweep.csv, plots and report.html. Exit codes: 0 done; 2 bad command line 
 output; 130 or 143 interrupted (run it again to continue).
 """
 
-import argparse
 import sys
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
-
-from study_command import (  # noqa: E402  (lies beside this file)
-    RUN_FAILED,
-    add_run_options,
+import project_path  # noqa: F401
+from commands import RUN_FAILED, start
+from study_command import (
+    case_parser,
     common_settings,
-    guarded,
     lock,
     output_directory,
     program,
@@ -27,13 +23,7 @@ from study_command import (  # noqa: E402  (lies beside this file)
 
 def parsed(arguments):
     """The command line as a namespace."""
-    parser = argparse.ArgumentParser(
-        prog="endoflow sweep",
-        description="Run a case with many values of some parameters.",
-        allow_abbrev=False,
-        epilog="Finished runs are not repeated and interrupted ones are continued when the command is given again.",
-    )
-    add_run_options(parser, "sweep")
+    parser = case_parser("sweep", "Run a case with many values of some parameters.")
     parser.add_argument(
         "--vary",
         metavar="section.key=VALUES",
@@ -62,7 +52,7 @@ def sweep_members(options, output):
         parameters = resolved_parameters(program(), options.case, settings)
         for engine in engines:
             name = f"{directory_name(values)}/{engine}"
-            members.append(Member(name, output / name, engine, settings, values, parameters))
+            members.append(Member(name, options.case, output / name, engine, settings, values, parameters))
     return members
 
 
@@ -73,7 +63,7 @@ def write_slurm(members, options, output):
 
     left = [(work_left(member), member) for member in members]
     entries = [
-        (work, member.directory, run_command('"$endoflow"', options.case, member, "", options.processes))
+        (work, member.directory, run_command('"$endoflow"', member, "", options.processes))
         for work, member in left
         if work != FINISHED
     ]
@@ -132,14 +122,5 @@ def sweep(options):
         return RUN_FAILED if report_failures("sweep", outcomes) else 0
 
 
-def main(arguments):
-    """Run the command; returns its exit code."""
-    options = parsed(arguments)
-    return guarded("sweep", lambda: sweep(options))
-
-
 if __name__ == "__main__":
-    try:
-        sys.exit(main(sys.argv[1:]))
-    except KeyboardInterrupt:
-        sys.exit(130)
+    start("sweep", parsed, sweep)

@@ -37,7 +37,7 @@ class Work(unittest.TestCase):
         (self.directory / "checkpoint" / "state.h5").unlink(missing_ok=True)
         if checkpoint:
             (self.directory / "checkpoint" / "state.h5").write_text("")
-        return work_left(Member("m", self.directory, engine, (), {}, synthetic.parameters(**changes)))
+        return work_left(Member("m", "c", self.directory, engine, (), {}, synthetic.parameters(**changes)))
 
     def test_states(self):
         self.assertEqual(self.left(), FINISHED)
@@ -59,17 +59,17 @@ class Work(unittest.TestCase):
         self.assertEqual(self.left(time__end=0.5), FRESH)
 
     def test_no_run(self):
-        self.assertEqual(work_left(Member("m", self.directory / "no", "phase-field", (), {}, {})), FRESH)
+        self.assertEqual(work_left(Member("m", "c", self.directory / "no", "phase-field", (), {}, {})), FRESH)
         (self.directory / "run.json").write_text("half a rec")
-        self.assertEqual(work_left(Member("m", self.directory, "phase-field", (), {}, {})), FRESH)
+        self.assertEqual(work_left(Member("m", "c", self.directory, "phase-field", (), {}, {})), FRESH)
 
     def test_command_line(self):
-        diffuse = Member("m", Path("d"), "phase-field", ("a.b=1",), {}, {})
-        sharp = Member("m", Path("d"), "boundary-integral", (), {}, {})
+        diffuse = Member("m", "c", Path("d"), "phase-field", ("a.b=1",), {}, {})
+        sharp = Member("m", "c", Path("d"), "boundary-integral", (), {}, {})
         run = ["e", "run", "phase-field", "c", "--set", "a.b=1", "-o", "d"]
-        self.assertEqual(run_command("e", "c", diffuse, FRESH), run)
-        self.assertEqual(run_command("e", "c", diffuse, CONTINUE, 4), ["mpirun", "-n", "4", *run, "--restart"])
-        self.assertEqual(run_command("e", "c", sharp, FRESH, 4)[0], "e")
+        self.assertEqual(run_command("e", diffuse, FRESH), run)
+        self.assertEqual(run_command("e", diffuse, CONTINUE, 4), ["mpirun", "-n", "4", *run, "--restart"])
+        self.assertEqual(run_command("e", sharp, FRESH, 4)[0], "e")
 
 
 class Parallel(unittest.TestCase):
