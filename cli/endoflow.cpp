@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 
 #include "command_line.h"
+#include "laws.h"
 #include "process.h"
 #include "shared/parameters/case_file.h"
 #include "shared/parameters/parameter_rendering.h"
@@ -20,7 +22,11 @@ namespace endoflow::cli {
 namespace {
 
 const std::vector<std::string> engines{"boundary-integral", "phase-field"};
-const std::vector<std::string> commands{"run", "compare", "converge", "sweep", "statics", "params", "check", "summary"};
+const std::vector<std::string> commands{"run",  "compare", "converge", "sweep", "reproduce", "movie",
+                                        "laws", "statics", "params",   "check", "summary"};
+
+/// Commands that are Python: comparisons/NAME.py.
+const std::vector<std::string> scripts{"compare", "converge", "sweep", "reproduce", "movie"};
 
 constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, computed by two independent engines
 
@@ -29,8 +35,11 @@ constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, comp
   endoflow compare DIR_A DIR_B [-o DIR]                    two runs: metrics.json, plots, report.html
   endoflow converge CASE.toml --epsilon E1,E2,...          phase field against sharp membrane as the layer gets thin
   endoflow sweep CASE.toml --vary KEY=FIRST:LAST:STEP --engine ENGINE [-o DIR] [--jobs N]      many runs of one case
+  endoflow reproduce ITEM [--quick|--full] [-o DIR] [--jobs N]     the paper: table2, fig3 ... fig7, figA2 or all
+  endoflow movie DIR [-o FILE.mp4|FILE.gif]                a run as a film (needs ffmpeg)
   endoflow statics CASE.toml [-o DIR] [--continue-in KEY=END]               stationary shapes of the sharp membrane
   endoflow params [--markdown|--toml]                      every parameter: default, unit, bounds, meaning
+  endoflow laws [CASE.toml] [--set section.key=value]...   the constitutive laws b(c), H0(c) as CSV
   endoflow check CASE.toml [--set section.key=value]...    validate a case file; --json prints all its parameters
   endoflow summary DIR                                     one screen about a run
   endoflow --version
@@ -53,18 +62,6 @@ int run(int argc, char** argv) {
     // Parallelism is between processes there; threads of the linear algebra would only fight for the cores.
     if (engine == engines[1]) ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
     become_program("endoflow-" + engine, {argv + 2, argv + argc});
-}
-
-int compare(int argc, char** argv) {
-    become_python("comparisons/compare.py", {argv + 1, argv + argc});
-}
-
-int converge(int argc, char** argv) {
-    become_python("comparisons/converge.py", {argv + 1, argv + argc});
-}
-
-int sweep(int argc, char** argv) {
-    become_python("comparisons/sweep.py", {argv + 1, argv + argc});
 }
 
 int params(int argc, char** argv) {
@@ -96,6 +93,19 @@ int check(int argc, char** argv) {
     return 0;
 }
 
+int laws(int argc, char** argv) {
+    CLI::App app("Prints the constitutive laws as CSV", "endoflow laws");
+    std::string file;
+    std::vector<std::string> overrides;
+    app.add_option("CASE", file, "case file (TOML) with another membrane than the paper's");
+    app.add_option("--set", overrides, "section.key=value, overrides the case file")->allow_extra_args(false);
+    if (!parse(app, argc, argv)) return 0;
+    const Parameters parameters =
+        file.empty() ? parse_case("", "the paper's case", overrides) : read_case(file, overrides);
+    fmt::print("{}", constitutive_laws_csv(parameters.membrane));
+    return 0;
+}
+
 int summary(int argc, char** argv) {
     CLI::App app("One screen about a run", "endoflow summary");
     std::string directory;
@@ -116,10 +126,10 @@ int dispatch(int argc, char** argv) {
         return 0;
     }
     if (command == "run") return run(argc - 1, argv + 1);
-    if (command == "compare") return compare(argc - 1, argv + 1);
-    if (command == "converge") return converge(argc - 1, argv + 1);
-    if (command == "sweep") return sweep(argc - 1, argv + 1);
+    if (std::find(scripts.begin(), scripts.end(), command) != scripts.end())
+        become_python("comparisons/" + command + ".py", {argv + 2, argv + argc});
     if (command == "statics") become_program("endoflow-statics", {argv + 2, argv + argc});
+    if (command == "laws") return laws(argc - 1, argv + 1);
     if (command == "params") return params(argc - 1, argv + 1);
     if (command == "check") return check(argc - 1, argv + 1);
     if (command == "summary") return summary(argc - 1, argv + 1);

@@ -1,0 +1,80 @@
+"""Fig. 6: diameter and neck radius at 20 µs against the patch radius."""
+
+import numpy as np
+
+import style
+
+style.apply()
+
+import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
+
+from sweep_plots import LOOKS  # noqa: E402
+
+from . import patch_sweep  # noqa: E402
+from .item import Printed, Result, not_run_remarks, quick_remark, text  # noqa: E402
+from .patch_sweep import STATIONARY, of_engine  # noqa: E402
+
+TITLE = "Fig. 6: vesicle diameter and neck radius by patch radius"
+
+#: What the text prints: diameter (nm) of the fastest budding patch of 36 nm, and the radius of the smallest neck.
+PAPER_DIAMETER, PAPER_RADIUS, PAPER_NECK_MINIMUM = 42.0, 36, 40
+
+wanted = patch_sweep.wanted
+
+
+def line_fit(x, y):
+    """(slope, intercept, R²) of the straight line through y(x); None for fewer than three points."""
+    if len(x) < 3:
+        return None
+    slope, intercept = np.polyfit(x, y, 1)
+    rest = ((y - slope * x - intercept) ** 2).sum() / ((y - y.mean()) ** 2).sum()
+    return float(slope), float(intercept), float(1 - rest)
+
+
+def draw(rows):
+    """Diameter and neck radius against the patch radius."""
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.9), layout="constrained")
+    for engine in patch_sweep.engines_of(rows):
+        look = {"color": style.ENGINE_COLOURS[engine][0], "label": style.ENGINE_NAMES[engine], **LOOKS[engine]}
+        x, y = of_engine(rows, engine, "bud_diameter_nm")
+        left.plot(x, y, **look)
+        x, y = of_engine(rows, engine, "neck_radius_nm")
+        right.plot(x, y, **look)
+    left.plot(PAPER_RADIUS, PAPER_DIAMETER, "*", color="#333333", markersize=13, label="paper's text", zorder=5)
+    right.axvline(PAPER_NECK_MINIMUM, color="#333333", linewidth=1, linestyle=":", label="paper: smallest neck")
+    left.set(xlabel="patch radius (nm)", ylabel="lateral diameter (nm)", ylim=(0, None))
+    right.set(xlabel="patch radius (nm)", ylabel="neck radius (nm)", ylim=(0, None))
+    left.set_title("Vesicle diameter")
+    right.set_title("Neck radius")
+    left.legend()
+    right.legend()
+    return figure
+
+
+def neck_minimum(rows, engine):
+    """The smallest neck in words."""
+    found = patch_sweep.best(*of_engine(rows, engine, "neck_radius_nm"))
+    return "–" if found is None else f"{found[0]:.3g} (neck {found[1]:.3g} nm)"
+
+
+def result(runs, quick):
+    """See item.Result."""
+    rows = patch_sweep.table(runs)
+    engines = patch_sweep.engines_of(rows)
+    fits = {engine: line_fit(*of_engine(rows, engine, "bud_diameter_nm")) for engine in engines}
+    at_36 = {r["engine"]: r["bud_diameter_nm"] for r in rows if r["patch_radius_nm"] == PAPER_RADIUS}
+    linear = {e: "–" if f is None else f"{f[0]:.3g} r_c + {f[1]:.3g} nm, R² = {f[2]:.4f}" for e, f in fits.items()}
+    printed = [
+        Printed("diameter at r_c = 36 nm, nm", "≈ 42 (the vesicle that buds fastest)", {e: text(v, 4) for e, v in at_36.items()}),
+        Printed("diameter against r_c", "a linear function", linear),
+        Printed("patch radius of the smallest neck, nm", "40", {e: neck_minimum(rows, e) for e in engines}),
+    ]
+    remarks = [
+        f"The neck radii at {STATIONARY:g} µs are not stationary: see Fig. 5. A sharp neck keeps draining, so its value is a "
+        "matter of the time chosen; the paper's stop at a width comparable to its diffuse layer.",
+        "The paper prints no numbers for the curves of Fig. 6; only those of its text are compared.",
+        *quick_remark(quick),
+        *not_run_remarks(runs),
+    ]
+    title = f"At {STATIONARY:g} µs, or at the run's end if that is earlier"
+    return Result(rows, {"fig6": (title, draw(rows))}, printed, remarks)

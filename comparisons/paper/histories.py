@@ -1,0 +1,49 @@
+"""Histories of several runs on the same axes."""
+
+import style
+
+style.apply()
+
+import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
+import numpy as np  # noqa: E402
+
+from plots import legend_on_top  # noqa: E402
+
+from .item import is_run  # noqa: E402
+
+COLUMNS = ("neck_radius_nm", "bud_diameter_nm", "bud_height_nm")
+
+#: Colours of runs in order (Okabe and Ito), and the line of each engine.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+LINES = {"boundary-integral": "-", "phase-field": (0, (4, 2))}
+
+
+def history_figure(runs, names, columns=COLUMNS):
+    """Columns against time (logarithmic); names: {(run name, engine): legend text}. A run's colour is its name's."""
+    order = list(dict.fromkeys(name for name, _ in names))
+    figure, grid = plt.subplots(1, len(columns), figsize=(10.6, 3.6), layout="constrained")
+    handles, texts = [], []
+    for (name, engine), legend in names.items():
+        run = runs[name].get(engine)
+        if run is None or not is_run(run):
+            continue
+        look = {"color": COLOURS[order.index(name) % len(COLOURS)], "linestyle": LINES[engine]}
+        for axes, column in zip(grid, columns):
+            values = run.history[column] * style.HISTORY_PLOTS[column].factor
+            line = axes.plot(run.history["time_us"], values, **look)
+        handles.append(line[0])
+        texts.append(legend)
+    for axes, column in zip(grid, columns):
+        axes.set_title(style.axis_label(column))
+        axes.set_xscale("log", nonpositive="mask")
+        axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        axes.set_xlim(left=0.01)
+        axes.set_ylim(bottom=0)
+        axes.set_xlabel("time (µs)")
+    if "neck_radius_nm" in columns and np.isfinite(grid[columns.index("neck_radius_nm")].dataLim.y1):
+        grid[columns.index("neck_radius_nm")].axhline(
+            style.BUDDING_NECK_RADIUS, color="#888888", linewidth=0.9, linestyle=":"
+        )
+    if handles:
+        legend_on_top(figure, handles, texts)
+    return figure

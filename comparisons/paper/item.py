@@ -1,0 +1,112 @@
+"""What an item of the paper is made of."""
+
+import math
+from dataclasses import dataclass, field
+
+BOUNDARY_INTEGRAL, PHASE_FIELD = "boundary-integral", "phase-field"
+
+#: `--quick`: a layer twice as thick on cells twice as large, and the time (µs) a phase-field run is followed.
+QUICK_LAYER = {"phase_field.epsilon": "2.4", "phase_field.cell_size": "2.5"}
+QUICK_END = 0.5
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """A run. name: within its item; case: a file's stem in cases/; settings: {"section.key": text}; end: µs."""
+
+    name: str
+    engine: str
+    case: str
+    settings: dict = field(hash=False)
+    end: float
+
+
+@dataclass(frozen=True)
+class NotRun:
+    """Why there is no run."""
+
+    reason: str
+
+
+@dataclass(frozen=True)
+class Printed:
+    """A statement of the paper beside ours; ours: {engine name or "": text}."""
+
+    what: str
+    paper: str
+    ours: dict
+
+
+@dataclass(frozen=True)
+class Result:
+    """What an item shows.
+
+    rows: for the CSV file, list of {column: value}; figures: {name: (title, matplotlib Figure)};
+    printed: list of Printed; remarks: sentences on what differs and why.
+    """
+
+    rows: list
+    figures: dict
+    printed: list
+    remarks: list
+
+
+def both_engines(name, case, settings, end, quick):
+    """The run of each engine; with `quick` the phase field takes a thicker layer and a shorter time."""
+    diffuse = {**settings, **QUICK_LAYER} if quick else settings
+    return [
+        Wanted(name, BOUNDARY_INTEGRAL, case, settings, end),
+        Wanted(name, PHASE_FIELD, case, diffuse, min(end, QUICK_END) if quick else end),
+    ]
+
+
+def is_run(found):
+    """Whether there is a run to look at."""
+    return not isinstance(found, NotRun)
+
+
+def last_time(run):
+    """Time (µs) a run reached."""
+    return float(run.shape_times[-1])
+
+
+def end_of(run):
+    """Time (µs) a run's history reached."""
+    return float(run.history["time_us"][-1])
+
+
+def value_at(run, column, time):
+    """A history column at a time (µs); None where it does not exist or the run ended before."""
+    end = end_of(run)
+    value = float(run.history_at(column, min(time, end))) if time <= end * (1 + 1e-9) else math.nan
+    return value if math.isfinite(value) else None
+
+
+def final_value(run, column):
+    """A history column's last value; None where it does not exist."""
+    return value_at(run, column, end_of(run))
+
+
+def text(value, digits=4, unit=""):
+    """A number as text, a dash for None."""
+    return "–" if value is None else f"{value:.{digits}g}" + (f" {unit}" if unit else "")
+
+
+def quick_remark(quick):
+    """The sentence every item with quick phase-field runs shows."""
+    if not quick:
+        return []
+    return [
+        f"Quick: the phase-field runs have ε = {QUICK_LAYER['phase_field.epsilon']} nm instead of the paper's 1.2 nm "
+        f"and end at {QUICK_END:g} µs; they show that the engine does the case, not what it gives in the limit."
+    ]
+
+
+def not_run_remarks(runs):
+    """One sentence for each run that is missing."""
+    return [
+        f"{name}, {engine}: not run: {found.reason}"
+        for name, engines in runs.items()
+        for engine, found in engines.items()
+        if not is_run(found)
+    ]

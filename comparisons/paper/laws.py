@@ -1,0 +1,19 @@
+"""The constitutive laws as the program computes them."""
+
+import csv
+import subprocess
+
+import numpy as np
+
+from commands import IO_FAILURE
+from members import StudyError, last_line
+from study_command import program
+
+
+def constitutive_laws():
+    """{column: array} of `endoflow laws`: c, and for each law LAW_b_pN_nm and LAW_H0_per_nm. Raises StudyError."""
+    found = subprocess.run([str(program()), "laws"], capture_output=True, text=True, check=False)
+    if found.returncode:
+        raise StudyError(last_line(found.stderr), IO_FAILURE)
+    header, *rows = csv.reader(found.stdout.splitlines())
+    return dict(zip(header, np.array(rows, dtype=float).T))

@@ -1,0 +1,92 @@
+"""report.html of an item, and the index of all."""
+
+import report
+import style
+from report import escaped
+from study_report import page
+
+from .item import is_run
+
+COMMAND = "endoflow reproduce"
+SOURCE = "J. Lowengrub, J. Allard, S. Aland, J. Comput. Phys. (2016)"
+
+
+def item_html(item, title, result, runs, quick, directory):
+    """The page's text; result: item.Result, its figures saved in directory (Path)."""
+    sections = [
+        ("The paper beside this", printed_table(result.printed)),
+        ("What differs, and why", "<ul>" + "".join(f"<li>{escaped(one)}</li>" for one in result.remarks) + "</ul>"),
+        ("Plots", "".join(report.plot(directory / f"{n}.svg", text) for n, (text, _) in result.figures.items())),
+        ("Numbers", numbers_table(result.rows) + f'<p class="note">{escaped(item)}.csv holds them with 12 digits.</p>'),
+        ("Runs", runs_table(runs)),
+    ]
+    subtitle = f"{SOURCE} · {'quick' if quick else 'full'}"
+    return page(f"{COMMAND} {item}", title, subtitle, [], [], sections, directory)
+
+
+def engines_of(printed):
+    """Engines that have an entry, in the order of style.ENGINE_NAMES; "" for numbers of no engine."""
+    named = {engine for one in printed for engine in one.ours}
+    return [engine for engine in ("", *style.ENGINE_NAMES) if engine in named]
+
+
+def printed_table(printed):
+    """What the paper says beside what was found."""
+    engines = engines_of(printed)
+    heads = ["", "paper", *(escaped(style.ENGINE_NAMES.get(engine, "here")) for engine in engines)]
+    rows = [
+        ("", [escaped(one.what), escaped(one.paper), *(escaped(one.ours.get(engine, "–")) for engine in engines)])
+        for one in printed
+    ]
+    return report.table(heads, rows, "text")
+
+
+def numbers_table(rows):
+    """The rows of the CSV file."""
+    heads = [escaped(column.replace("_", " ")) for column in rows[0]]
+    body = [("", [report.setting(value, 5) for value in row.values()]) for row in rows]
+    return f"<details><summary>{len(rows)} rows</summary>{report.table(heads, body)}</details>"
+
+
+def runs_table(runs):
+    """Every run: how it ended, what it cost, where it lies."""
+    rows = []
+    for name, engines in runs.items():
+        for engine, found in engines.items():
+            head = [escaped(name), escaped(style.ENGINE_NAMES[engine])]
+            if not is_run(found):
+                rows.append(("", [*head, escaped(f"not run: {found.reason}"), "–", "–", "–", "–"]))
+                continue
+            record, layer = found.record, found.parameters["phase_field"]["epsilon"]
+            cells = [
+                escaped(record["exit_reason"]),
+                report.setting(float(found.history["time_us"][-1]), 5),
+                report.setting(layer, 3) if engine == "phase-field" else "–",
+                report.figures(record.get("wall_s"), 3),
+                f"<code>{escaped(found.directory)}</code>",
+            ]
+            rows.append(("", [*head, *cells]))
+    return report.table(["run", "engine", "ended with", "end (µs)", "ε (nm)", "wall (s)", "directory"], rows, "text")
+
+
+def summary_lines(item, result, directory):
+    """What the terminal shows of an item."""
+    lines = [f"{item}    {directory / 'report.html'}"]
+    for one in result.printed:
+        ours = "; ".join(f"{style.ENGINE_NAMES.get(engine, 'here')}: {value}" for engine, value in one.ours.items())
+        lines.append(f"    {one.what}   paper: {one.paper}   {ours}")
+    return lines
+
+
+def index_html(output):
+    """A page that links to every item that lies in output (Path)."""
+    from . import ITEMS
+
+    made = [name for name in ITEMS if (output / name / "report.html").exists()]
+    rows = []
+    for name in made:
+        picture = next(iter(sorted((output / name).glob("*.png"), key=lambda p: (len(p.name), p.name))), None)
+        image = f'<img src="{escaped(picture.relative_to(output))}" alt="" width="320">' if picture else ""
+        link = f'<a href="{escaped(name)}/report.html">{escaped(ITEMS[name].TITLE)}</a>'
+        rows.append(("", [link, image, f'<a href="{escaped(name)}/{escaped(name)}.csv">CSV</a>']))
+    return page(COMMAND, "The paper, reproduced", SOURCE, [], [], [("Items", report.table(["", "", ""], rows))], output)

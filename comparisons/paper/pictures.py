@@ -1,0 +1,103 @@
+"""Pictures of single membranes: mirrored, coloured by c, with velocity arrows."""
+
+import style
+
+style.apply()
+
+import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
+import numpy as np  # noqa: E402
+
+import plots  # noqa: E402
+from endoflow.curves import arc_length  # noqa: E402
+
+#: Arrows: distance along the membrane (nm), longest arrow (nm), and slowest speed (nm/µs) that is drawn.
+ARROW_SPACING, LONGEST_ARROW, SLOWEST = 8.0, 14.0, 0.1
+
+#: Colour of arrows and of sentences in empty panels.
+ARROW, MUTED = "#1B222C", "#777777"
+
+
+def gallery(rows, z_range=None, arrows=False):
+    """A figure of panels. rows: [(row title, [(panel title, Shape or a sentence saying why there is none)])]."""
+    shapes = [shape for _, panels in rows for _, shape in panels if not isinstance(shape, str)]
+    z_range = z_range or (plots.vertical_range(shapes, 7.0) if shapes else (60.0, 140.0))
+    rim = max((shape.r[-1] for shape in shapes), default=80.0)
+    columns = max(len(panels) for _, panels in rows)
+    width = min(3.1, 12.4 / columns)
+    height = len(rows) * (0.45 + width * (z_range[1] - z_range[0]) / (2 * rim)) + 0.35
+    figure, grid = plt.subplots(
+        len(rows),
+        columns,
+        figsize=(columns * width + 1.5, height),
+        sharex=True,
+        sharey=True,
+        squeeze=False,
+        layout="constrained",
+    )
+    coloured = None
+    for line, (title, panels) in zip(grid, rows):
+        line[0].set_ylabel(title, weight="bold")
+        for axes in line[len(panels) :]:
+            axes.set_axis_off()
+        for axes, (name, shape) in zip(line, panels):
+            axes.set_title(name)
+            axes.set(xlim=(-rim, rim), ylim=z_range, aspect="equal")
+            axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):g}")
+            if isinstance(shape, str):
+                _say(axes, shape)
+            else:
+                coloured = draw_membrane(axes, shape, z_range, rim, line_width=2.2)
+                if arrows:
+                    draw_arrows(axes, shape)
+    if coloured is not None:
+        bar = figure.colorbar(coloured, ax=grid, label="molecule concentration c", shrink=0.6, aspect=25, pad=0.02)
+        bar.outline.set_visible(False)
+    return figure
+
+
+def _say(axes, sentence):
+    """A sentence in an empty panel."""
+    axes.text(
+        0.5, 0.5, sentence, transform=axes.transAxes, ha="center", va="center", color=MUTED, size=7.5, wrap=True
+    )
+    axes.grid(False)
+
+
+def draw_membrane(axes, shape, z_range, rim, line_width=3.0):
+    """One membrane, both half-planes; returns the coloured lines."""
+    for side in (-1, 1):
+        lines = plots.draw_half(axes, shape, side, z_range, rim, line_width)
+    axes.set_facecolor(style.CYTOPLASM)
+    axes.grid(False)
+    return lines
+
+
+def arrow_length(speed, fastest):
+    """Length in nm of the arrow of a speed (nm/µs): logarithmic from SLOWEST (0) to `fastest` (LONGEST_ARROW)."""
+    span = np.log10(max(fastest, 10 * SLOWEST) / SLOWEST)
+    return LONGEST_ARROW * np.clip(np.log10(np.maximum(speed, SLOWEST) / SLOWEST) / span, 0, 1)
+
+
+def draw_arrows(axes, shape):
+    """The membrane's velocity: direction, and magnitude on a logarithmic scale that is noted in the panel."""
+    s = arc_length(shape.r, shape.z)
+    at = np.arange(0.5 * ARROW_SPACING, s[-1], ARROW_SPACING)
+    r, z, u, w = (np.interp(at, s, values) for values in (shape.r, shape.z, shape.u_r, shape.u_z))
+    speed = np.hypot(u, w)
+    fastest = float(np.hypot(shape.u_r, shape.u_z).max())
+    length = arrow_length(speed, fastest) / np.maximum(speed, 1e-300)
+    for side in (-1, 1):
+        axes.quiver(
+            side * r,
+            z,
+            side * u * length,
+            w * length,
+            color=ARROW,
+            angles="xy",
+            scale_units="xy",
+            scale=1,
+            width=0.006,
+            zorder=5,
+        )
+    note = f"fastest {fastest:.3g} nm/µs" if fastest >= SLOWEST else f"all below {SLOWEST:g} nm/µs"
+    axes.text(0.02, 0.97, note, transform=axes.transAxes, va="top", size=7, color=ARROW)
