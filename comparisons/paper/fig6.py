@@ -23,8 +23,8 @@ wanted = patch_sweep.wanted
 
 
 def line_fit(x, y):
-    """(slope, intercept, R²) of the straight line through y(x); None for fewer than three points."""
-    if len(x) < 3:
+    """(slope, intercept, R²) of the straight line through y(x); None for fewer than three points or a constant."""
+    if len(x) < 3 or np.ptp(y) == 0:
         return None
     slope, intercept = np.polyfit(x, y, 1)
     rest = ((y - slope * x - intercept) ** 2).sum() / ((y - y.mean()) ** 2).sum()

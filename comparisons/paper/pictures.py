@@ -1,5 +1,7 @@
 """Pictures of single membranes: mirrored, coloured by c, with velocity arrows."""
 
+import textwrap
+
 import style
 
 style.apply()
@@ -12,6 +14,9 @@ from endoflow.curves import arc_length  # noqa: E402
 
 #: Arrows: distance along the membrane (nm), longest arrow (nm), and slowest speed (nm/µs) that is drawn.
 ARROW_SPACING, LONGEST_ARROW, SLOWEST = 8.0, 14.0, 0.1
+
+#: Letters in a line of a panel's sentence.
+WRAP = 34
 
 #: Colour of arrows and of sentences in empty panels.
 ARROW, MUTED = "#1B222C", "#777777"
@@ -58,7 +63,7 @@ def gallery(rows, z_range=None, arrows=False):
 def _say(axes, sentence):
     """A sentence in an empty panel."""
     axes.text(
-        0.5, 0.5, sentence, transform=axes.transAxes, ha="center", va="center", color=MUTED, size=7.5, wrap=True
+        0.5, 0.5, textwrap.fill(sentence, WRAP), transform=axes.transAxes, ha="center", va="center", color=MUTED, size=7.5
     )
     axes.grid(False)
 

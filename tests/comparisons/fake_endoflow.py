@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Stands in for the program `endoflow`: `check` and `run` as the real ones, with a membrane known in closed form.
 
-Settings steer it: a patch radius of 13 or an ε of 0.7 makes `run` fail as a solver does, the case.name "slow" makes it
-run until a signal and end with a checkpoint. A patch radius above 1000 and unknown keys are refused. Every run appends a
+Settings steer it: a patch radius of 13 or an ε of 0.7 makes `run` fail as a solver does, geometric dynamics are refused by
+the boundary-integral engine, the case.name "slow" makes it run until a signal and end with a checkpoint. A patch radius
+above 1000 and unknown keys are refused. Every run appends a
 line to runs.log in the working directory, where defaults.json holds the parameters.
 """
 
@@ -10,6 +11,7 @@ import json
 import signal
 import sys
 import time
+import tomllib
 from pathlib import Path
 
 
@@ -35,16 +37,19 @@ def options(arguments):
 
 
 def resolved(case, settings):
-    """The parameters of a case, which is a file with one setting in each line."""
+    """The parameters of a case."""
     if not Path(case).is_file():
         fail(f"{case}: no such case file; give the path of a TOML file", 2)
     parameters = json.loads(Path("defaults.json").read_text())
-    for setting in [*Path(case).read_text().split(), *settings]:
+    sections = tomllib.loads(Path(case).read_text())
+    in_case = [f"{section}.{key}={value}" for section, values in sections.items() for key, value in values.items()]
+    for setting in [*in_case, *settings]:
         key, _, text = setting.partition("=")
         section, name = key.split(".")
         if name not in parameters.get(section, {}):
             fail(f"--set {setting}: unknown key {key}", 2)
-        parameters[section][name] = text if isinstance(parameters[section][name], str) else float(text)
+        before = parameters[section][name]
+        parameters[section][name] = text if isinstance(before, (str, bool)) else float(text)
     if parameters["molecules"]["patch_radius"] > 1000:
         fail("molecules.patch_radius: must be at most 1000", 2)
     return parameters
@@ -59,6 +64,8 @@ def run(engine, case, settings, output, restart):
     epsilon = parameters["phase_field"]["epsilon"]
     if patch_radius == 13 or epsilon == 0.7:
         fail("step-underflow: the step became too small; lower time.tolerance", 3)
+    if engine == "boundary-integral" and parameters["fluid"]["dynamics"] == "geometric":
+        fail('fluid.dynamics: the boundary-integral engine offers "flow"', 2)
 
     import locations  # noqa: F401
     import synthetic
@@ -89,7 +96,12 @@ def note(output, state):
 
 def main():
     words, settings, output, flags = options(sys.argv[1:])
-    if words[0] == "check":
+    if words[0] == "laws":
+        laws = [f"{law}_{column}" for law in ("linear", "coarse-grained", "lumped") for column in ("b_pN_nm", "H0_per_nm")]
+        print(",".join(["c", *laws]))
+        for c in (0, 0.5, 1):
+            print(",".join([str(c), *(f"{100 + 1100 * c},{c / 14.1}" for _ in range(3))]))
+    elif words[0] == "check":
         print(json.dumps(resolved(words[1], settings)))
     else:
         run(words[1], words[2], settings, output, "--restart" in flags)

@@ -32,7 +32,10 @@ class StudyTest(unittest.TestCase):
         )
         self.program.chmod(0o755)
         (self.scratch / "case.toml").write_text("")
-        defaults = {"case": {"name": "synthetic"}, **synthetic.parameters(phase_field__cell_size=0.6)}
+        defaults = {
+            "case": {"name": "synthetic", "description": ""},
+            **synthetic.parameters(phase_field__cell_size=0.6, phase_field__mobility=0.0064),
+        }
         (self.scratch / "defaults.json").write_text(json.dumps(defaults))
 
     def arguments(self, command, *arguments):

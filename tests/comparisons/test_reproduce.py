@@ -1,0 +1,149 @@
+"""`endoflow reproduce` with a program that writes runs in closed form: what is run, shared, refused, and written."""
+
+import csv
+import json
+import re
+import unittest
+
+import locations  # noqa: F401
+import numpy as np
+import synthetic
+from endoflow.shapes import Shape
+from paper import patch_sweep
+from studies import StudyTest
+
+#: Keys of cases/*.toml and of the items' settings that synthetic.parameters lacks, and their values.
+OTHER_KEYS = {
+    "membrane": {"constitutive_law": "linear", "inextensible": True},
+    "molecules": {"diffusivity": 16.0},
+    "phase_field": {"scheme": "paper", "max_step": 0.002},
+    "output": {"field_interval": 0.5},
+}
+
+
+class Reproduce(StudyTest):
+    def setUp(self):
+        super().setUp()
+        file = self.scratch / "defaults.json"
+        defaults = json.loads(file.read_text())
+        for section, values in OTHER_KEYS.items():
+            defaults.setdefault(section, {}).update(values)
+        file.write_text(json.dumps(defaults))
+
+    def reproduce(self, *arguments):
+        return self.call("reproduce", *arguments, "-o", "p")
+
+    def rows(self, item):
+        with open(self.scratch / f"p/{item}/{item}.csv", newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def page(self, item):
+        """The page's text without embedded pictures."""
+        return re.sub(r"data:image[^\"]*", "", (self.scratch / f"p/{item}/report.html").read_text())
+
+    def test_items_share_runs_and_finished_ones_are_not_repeated(self):
+        process = self.reproduce("fig7", "--engine", "boundary-integral", "--until", "1")
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        first = self.runs()
+        self.assertEqual(len(first), len(patch_sweep.RADII))
+        self.assertIn("p/runs/standard,patch_radius=38/boundary-integral fresh", first)
+        process = self.reproduce("fig6", "fig7", "--engine", "boundary-integral", "--until", "0.5")
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        self.assertEqual(self.runs(), [], "runs that went on longer serve as well")
+        self.reproduce("figA2", "--until", "1")
+        left = [f"p/runs/standard,constitutive_law={law}/boundary-integral fresh" for law in ("coarse-grained", "lumped")]
+        self.assertEqual(self.runs(), left, "the linear law is the standard case")
+
+    def test_table_of_fig7(self):
+        self.reproduce("fig7", "--quick", "--until", "1")
+        rows = self.rows("fig7")
+        of = {(float(row["patch_radius_nm"]), row["engine"]): row for row in rows}
+        self.assertEqual(len(of), len(patch_sweep.RADII) + len(patch_sweep.QUICK_RADII))
+        # The synthetic membrane buds at 0.7346 µs whatever the patch.
+        self.assertAlmostEqual(float(of[36, "boundary-integral"]["budding_time_us"]), 0.7346, places=3)
+        self.assertEqual(of[36, "phase-field"]["budding_time_us"], "", "quick phase-field runs end at 0.5 µs")
+        for name in ("fig7.png", "fig7.svg"):
+            self.assertGreater((self.scratch / "p/fig7" / name).stat().st_size, 1000)
+        page = self.page("fig7")
+        for words in ("fastest patch", ">36<", "experiment 41.1 ± 0.1", "What differs, and why"):
+            self.assertIn(words, page)
+        self.assertIn("fig7/report.html", (self.scratch / "p/index.html").read_text())
+
+    def test_a_refused_run_is_reported_not_fatal(self):
+        process = self.reproduce("fig4", "--quick", "--until", "1")
+        self.assertEqual(process.returncode, 0)
+        self.assertEqual(
+            process.stderr,
+            'endoflow reproduce: geometric/boundary-integral: not run: fluid.dynamics: the boundary-integral engine offers "flow"\n',
+        )
+        self.assertIn("not run: fluid.dynamics", self.page("fig4"))
+        states = {(row["dynamics"], row["engine"]): row["state"] for row in self.rows("fig4")}
+        self.assertRegex(states["geometric", "boundary-integral"], "not run: fluid.dynamics")
+        self.assertEqual(states["geometric", "phase-field"], "done")
+
+    def test_unknown_parameters_are_a_reason_too(self):
+        process = self.reproduce("table2", "--set", "phase_field.no_such=1")
+        self.assertEqual(process.returncode, 3)
+        self.assertIn("unknown key phase_field.no_such", process.stderr)
+        self.assertIn("not run", self.page("table2"))
+
+    def test_every_item_is_written(self):
+        process = self.reproduce("all", "--quick", "--until", "0.4")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        for item in ("table2", "fig3", "fig4", "fig5", "fig6", "fig7", "figA2"):
+            self.assertTrue(self.rows(item), item)
+            self.assertIn("The paper beside this", self.page(item))
+            self.assertTrue((self.scratch / f"p/{item}/{item}.png").exists(), item)
+
+    def test_relative_changes_of_table2(self):
+        self.reproduce("table2", "--quick")
+        rows = {(row["parameter"], row["printed_value"]): row for row in self.rows("table2")}
+        self.assertEqual(rows["ε", "2.4"]["paper_change_percent"], "8.53")
+        self.assertEqual(rows["ε", "1.2"]["change_percent"], "0")
+        areas = [float(rows["ε", value]["area_nm2"]) for value in ("2.4", "1.2")]
+        self.assertAlmostEqual(float(rows["ε", "2.4"]["change_percent"]), 100 * abs(areas[0] - areas[1]) / areas[1], places=6)
+
+    def test_bad_command_lines(self):
+        self.assertEqual(self.reproduce("fig2").returncode, 2)
+        self.assertEqual(self.reproduce("fig3", "--quick", "--full").returncode, 2)
+        self.assert_one_line(self.reproduce("fig3", "--set", "epsilon=1"), 2, "--set epsilon: it must read section.key=value")
+
+
+class Morphology(unittest.TestCase):
+    def shape(self, alpha, dent=0.0):
+        membrane = synthetic.SphereOnPlane(20.0, 8.0, 80.0, alpha)
+        r, z, kappa = membrane.curve(2000)
+        z = z - dent * np.exp(-((r / 6) ** 2)) * (z > 100)
+        s = synthetic.arc_length(r, z)
+        rs, zs = np.gradient(r, s), np.gradient(z, s)
+        along = np.where(r > 0.1, -zs / np.maximum(r, 0.1), 1 / 20)
+        if dent:
+            kappa = along - (rs * np.gradient(zs, s) - zs * np.gradient(rs, s))
+        c = (s < 30).astype(float)
+        return membrane, Shape(0.0, s, r, z, c, 0 * s, kappa, 0 * s, 0 * s)
+
+    def test_a_sphere_is_round(self):
+        membrane, shape = self.shape(2.9)
+        index = patch_sweep.neck_index(shape)
+        self.assertAlmostEqual(shape.r[index], membrane.neck_radius, delta=0.05)
+        # A sphere without a cap of 180° − 2.9 rad: nearly round; the fillet above the neck adds a little area.
+        self.assertAlmostEqual(patch_sweep.roundness(shape, index), 1, delta=0.05)
+        self.assertEqual(patch_sweep.morphology(shape, 3.0), "spherical")
+
+    def test_a_dent_makes_a_mushroom(self):
+        self.assertEqual(patch_sweep.morphology(self.shape(2.9, dent=6.0)[1], 3.0), "mushroom")
+
+    def test_no_neck(self):
+        _, shape = self.shape(1.2)
+        self.assertIsNone(patch_sweep.neck_index(shape))
+        self.assertEqual(patch_sweep.morphology(shape, None), "no neck")
+
+    def test_parabola_through_the_lowest_points(self):
+        x = np.array([20.0, 30.0, 40.0, 50.0])
+        self.assertEqual(np.round(patch_sweep.best(x, (x - 37) ** 2 + 2), 9).tolist(), [37.0, 2.0])
+        self.assertEqual(patch_sweep.best(x, x), (20.0, 20.0))
+        self.assertIsNone(patch_sweep.best(x[:0], x[:0]))
+
+
+if __name__ == "__main__":
+    unittest.main()
