@@ -10,7 +10,7 @@ from metrics import ENGINE_SECTIONS, QUANTITIES, flat_parameters
 from report_data import report_data
 
 SOURCES = Path(__file__).resolve().parent / "report"
-SCRIPTS = ("data.js", "colours.js", "membrane_view.js", "charts.js", "readout.js", "player.js", "main.js")
+SCRIPTS = ("theme.js", "data.js", "colours.js", "membrane_view.js", "charts.js", "readout.js", "player.js", "main.js")
 
 #: Titles of the compared quantities.
 TITLES = {name: f"{plot.title} ({plot.unit})" for name, plot in style.HISTORY_PLOTS.items()}
@@ -33,16 +33,8 @@ def report_html(a, b, metrics, plots, directory):
     """The report's text for two endoflow.Run objects, their metrics, and the plots {name: title} in directory (Path)."""
     labels = [metrics["runs"][key]["label"] for key in "ab"]
     data = json.dumps(report_data(a, b, metrics), allow_nan=False, separators=(",", ":"))
-    return filled(
-        (SOURCES / "template.html").read_text(encoding="utf-8"),
-        title=escaped(f"{labels[0]} and {labels[1]}: endoflow comparison"),
-        heading=escaped(f"{labels[0].capitalize()} and {labels[1]}"),
-        subtitle=subtitle(a, b, metrics),
-        style=(SOURCES / "report.css").read_text(encoding="utf-8") + run_colours(a, b),
-        script="\n".join((SOURCES / name).read_text(encoding="utf-8") for name in SCRIPTS),
-        data=data.replace("</", "<\\/"),
-        warnings=warnings(metrics["warnings"]),
-        cards=cards(metrics),
+    sections = filled(
+        source("comparison.html"),
         sides="".join(f'<span class="ink-{key}">{escaped(label)}</span>' for key, label in zip("ab", labels)),
         canvas_label=escaped(
             f"Both membranes at the time shown: {labels[0]} left, {labels[1]} right, coloured by concentration"
@@ -56,7 +48,43 @@ def report_html(a, b, metrics, plots, directory):
         plots="\n".join(plot(directory / f"{name}.svg", title) for name, title in plots.items()),
         parameters_table=parameters_table(a, b, labels),
         provenance_table=provenance_table(a, b, labels),
-        directories=" and ".join(f"<code>{escaped(str(run.directory))}</code>" for run in (a, b)),
+    )
+    embedded = data.replace("</", "<\\/")
+    return page(
+        "endoflow compare",
+        title=escaped(f"{labels[0]} and {labels[1]}: endoflow comparison"),
+        heading=escaped(f"{labels[0].capitalize()} and {labels[1]}"),
+        subtitle=subtitle(a, b, metrics),
+        warnings=warnings(metrics["warnings"]),
+        cards=cards(metrics),
+        sections=sections,
+        origin="from " + " and ".join(f"<code>{escaped(str(run.directory))}</code>" for run in (a, b)),
+        scripts=SCRIPTS,
+        colours=run_colours(a, b),
+        data=f'<script type="application/json" id="report-data">{embedded}</script>',
+    )
+
+
+def source(name):
+    """Text of a file in report/."""
+    return (SOURCES / name).read_text(encoding="utf-8")
+
+
+def page(command, title, heading, subtitle, warnings, cards, sections, origin, scripts, colours="", data=""):
+    """A whole page's text; every argument but `scripts`, names of files in report/, is ready HTML or style sheet."""
+    return filled(
+        source("page.html"),
+        command=escaped(command),
+        title=title,
+        heading=heading,
+        subtitle=subtitle,
+        style=source("report.css") + colours,
+        warnings=warnings,
+        cards=f'<section aria-label="Key numbers"><dl class="cards">{cards}</dl></section>' if cards else "",
+        sections=sections,
+        origin=origin,
+        data=data,
+        script="\n".join(source(name) for name in scripts),
     )
 
 

@@ -13,6 +13,9 @@ from time_axis import long_after_budding, time_axis
 POINTS = 220
 FRAMES = 160
 
+#: Every how many points of a curve has a velocity arrow.
+ARROW_STRIDE = 8
+
 #: Least height (nm) of the picture of the membranes.
 LEAST_HEIGHT = 60.0
 
@@ -34,6 +37,7 @@ def report_data(a, b, metrics):
         "heightRange": height_range(pairs),
         "concentrationStops": [style.CONCENTRATION_STOPS, style.CONCENTRATION_STOPS_DARK],
         "runs": [packed_curves([pair[side] for pair in pairs]) for side in (0, 1)],
+        "arrows": arrow_scale(pairs),
         "charts": charts(a, b, metrics),
         "timeAxis": time_axis(metrics),
         "readout": readout(a, b, metrics, times),
@@ -51,8 +55,8 @@ def frame_times(metrics):
     if last <= first:
         return np.array([last])
     parts = [np.linspace(first, last, FRAMES)]
-    if long_after_budding(metrics):
-        split = 1.25 * last_budding(metrics)
+    split = 1.25 * (last_budding(metrics) or 0)
+    if long_after_budding(metrics) and first < split < last:
         parts = [np.linspace(first, split, FRAMES // 2), np.linspace(split, last, FRAMES // 2)]
     output_times = np.array([record["time_us"] for record in metrics["times"]])
     return np.unique(np.concatenate([moved_to_output_times(part, output_times) for part in parts]))
@@ -78,14 +82,24 @@ def height_range(pairs):
 
 
 def packed_curves(shapes):
-    """r, z, c of shapes at POINTS points each, frame after frame."""
+    """r, z, c of shapes at POINTS points each and u_r, u_z at every ARROW_STRIDE-th of them, frame after frame."""
     fields = [even_points(shape) for shape in shapes]
-    return {name: packed([frame[i] for frame in fields]) for i, name in enumerate(("r", "z", "c"))}
+    curves = {name: packed([frame[i] for frame in fields]) for i, name in enumerate(("r", "z", "c"))}
+    arrows = {name: packed([frame[i][::ARROW_STRIDE] for frame in fields]) for i, name in ((3, "u_r"), (4, "u_z"))}
+    return {**curves, **arrows}
+
+
+def arrow_scale(pairs):
+    """How velocities (nm/µs) become arrows (nm): logarithmic from `slowest`, of length 0, to `fastest`, the longest."""
+    fastest = max(float(np.hypot(shape.u_r, shape.u_z).max()) for pair in pairs for shape in pair)
+    slowest = style.SLOWEST_ARROW
+    scale = {"slowest": slowest, "fastest": max(fastest, 10 * slowest), "longest": style.LONGEST_ARROW}
+    return {"stride": ARROW_STRIDE, **scale}
 
 
 def even_points(shape):
-    """r, z, c (POINTS,) of a Shape at equal arc length."""
-    fine = resample(shape.r, shape.z, 0.1, shape.c)
+    """r, z, c, u_r, u_z (POINTS,) of a Shape at equal arc length."""
+    fine = resample(shape.r, shape.z, 0.1, shape.c, shape.u_r, shape.u_z)
     at = np.linspace(0, len(fine[0]) - 1, POINTS)
     return [np.interp(at, np.arange(len(values)), values) for values in fine]
 

@@ -1,8 +1,8 @@
-"""report.html of a study: a page without scripts or links to anything outside."""
+"""report.html of a study: a page without links to anything outside."""
 
 import report
 from convergence import DISTANCES
-from report import escaped, figures, filled, quantity, setting
+from report import escaped, figures, quantity, setting
 from study_plots import TITLES
 
 
@@ -12,17 +12,16 @@ def page(command, heading, subtitle, warnings, cards, sections, directory):
         f"<div><dt>{escaped(title)}</dt><dd>{value}<small>{escaped(note)}</small></dd></div>"
         for title, value, note in cards
     )
-    return filled(
-        (report.SOURCES / "study.html").read_text(encoding="utf-8"),
-        command=escaped(command),
+    return report.page(
+        command,
         title=escaped(f"{heading}: {command}"),
         heading=escaped(heading),
         subtitle=escaped(subtitle),
-        style=(report.SOURCES / "report.css").read_text(encoding="utf-8"),
         warnings=report.warnings(warnings),
-        cards=f'<section aria-label="Key numbers"><dl class="cards">{boxes}</dl></section>' if boxes else "",
+        cards=boxes,
         sections="\n".join(f"<section><h2>{escaped(title)}</h2>{body}</section>" for title, body in sections),
-        directory=f"<code>{escaped(directory)}</code>",
+        origin=f"in <code>{escaped(directory)}</code>",
+        scripts=("theme.js", "study.js"),
     )
 
 

@@ -21,6 +21,9 @@ CONCENTRATION = LinearSegmentedColormap.from_list("concentration", CONCENTRATION
 #: Ground tints: extracellular fluid (below and inside the bud) and cytoplasm.
 EXTRACELLULAR, CYTOPLASM = "#E2EEF7", "#FCFBF7"
 
+#: Velocity arrows are logarithmic: none up to this speed (nm/µs); length (nm) of the fastest one.
+SLOWEST_ARROW, LONGEST_ARROW = 0.1, 14.0
+
 #: A history column as plotted: its values times `factor` are in `unit`; `logarithmic` where it may span decades.
 HistoryPlot = namedtuple("HistoryPlot", "title unit factor logarithmic")
 

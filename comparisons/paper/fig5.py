@@ -58,15 +58,17 @@ def result(runs, quick):
             {engine: by_shape(rows, engine) for engine in engines},
         ),
         Printed("roundness of the bud at 36 nm (1: sphere)", "nearly spherical", at(36, "roundness")),
+        Printed("rise of the underside at 36 nm, nm", "–", at(36, "underside_rise_nm", 2)),
+        Printed("rise of the underside at 60 nm, nm", "mushroom-like", at(60, "underside_rise_nm", 2)),
         Printed("roundness of the bud at 60 nm", "mushroom-like", at(60, "roundness")),
     ]
     remarks = [
         "Without pressure difference and flow, a stationary shape with an open neck exists only up to r_c ≈ 25.6 nm "
         "(endoflow statics); from about 29 nm on the sharp neck closes. So above that the shapes at 20 µs are not "
         "stationary: the bud hardly changes any more, its neck keeps draining. The paper calls them stationary.",
-        "“Mushroom-like” is counted here where the coat curves the other way along a meridian (curvature below "
-        f"−{patch_sweep.DENT:g}/nm where c > {patch_sweep.COATED:g}), as the paper's conclusion says. Roundness is the volume "
-        "above the neck over that of the sphere of equal area.",
+        f"“Mushroom” is counted here where the underside rises by more than {patch_sweep.DENT:g} nm between the coat's edge "
+        "and the neck; that rise grows steadily with r_c and passes this limit where the paper sees the change. Roundness is "
+        "the volume above the neck over that of the sphere of equal area.",
         *quick_remark(quick),
         *not_run_remarks(runs),
     ]

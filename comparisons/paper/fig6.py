@@ -12,7 +12,7 @@ from sweep_plots import LOOKS  # noqa: E402
 
 from . import patch_sweep  # noqa: E402
 from .item import Printed, Result, not_run_remarks, quick_remark, text  # noqa: E402
-from .patch_sweep import STATIONARY, of_engine  # noqa: E402
+from .patch_sweep import EARLY, STATIONARY, of_engine  # noqa: E402
 
 TITLE = "Fig. 6: vesicle diameter and neck radius by patch radius"
 
@@ -39,7 +39,9 @@ def draw(rows):
         x, y = of_engine(rows, engine, "bud_diameter_nm")
         left.plot(x, y, **look)
         x, y = of_engine(rows, engine, "neck_radius_nm")
-        right.plot(x, y, **look)
+        right.plot(x, y, **{**look, "label": f"{look['label']}, {STATIONARY:g} µs or end"})
+        x, y = of_engine(rows, engine, "neck_radius_at_1_us_nm")
+        right.plot(x, y, **{**look, "label": f"{look['label']}, {EARLY:g} µs", "alpha": 0.45})
     left.plot(PAPER_RADIUS, PAPER_DIAMETER, "*", color="#333333", markersize=13, label="paper's text", zorder=5)
     right.axvline(PAPER_NECK_MINIMUM, color="#333333", linewidth=1, linestyle=":", label="paper: smallest neck")
     left.set(xlabel="patch radius (nm)", ylabel="lateral diameter (nm)", ylim=(0, None))
@@ -51,9 +53,9 @@ def draw(rows):
     return figure
 
 
-def neck_minimum(rows, engine):
+def neck_minimum(rows, engine, column):
     """The smallest neck in words."""
-    found = patch_sweep.best(*of_engine(rows, engine, "neck_radius_nm"))
+    found = patch_sweep.best(*of_engine(rows, engine, column))
     return "–" if found is None else f"{found[0]:.3g} (neck {found[1]:.3g} nm)"
 
 
@@ -67,11 +69,16 @@ def result(runs, quick):
     printed = [
         Printed("diameter at r_c = 36 nm, nm", "≈ 42 (the vesicle that buds fastest)", {e: text(v, 4) for e, v in at_36.items()}),
         Printed("diameter against r_c", "a linear function", linear),
-        Printed("patch radius of the smallest neck, nm", "40", {e: neck_minimum(rows, e) for e in engines}),
+        *(
+            Printed(f"patch radius of the smallest neck {when}, nm", "40", {e: neck_minimum(rows, e, column) for e in engines})
+            for when, column in ((f"at {EARLY:g} µs", "neck_radius_at_1_us_nm"), ("at the end", "neck_radius_nm"))
+        ),
     ]
     remarks = [
-        f"The neck radii at {STATIONARY:g} µs are not stationary: see Fig. 5. A sharp neck keeps draining, so its value is a "
-        "matter of the time chosen; the paper's stop at a width comparable to its diffuse layer.",
+        f"The neck radii at {STATIONARY:g} µs are not stationary: see Fig. 5. A sharp neck keeps draining, so its value and the "
+        f"radius that has the smallest one are a matter of the time chosen: soon after budding, at {EARLY:g} µs, it is the "
+        "paper's radius; later the necks of smaller patches, with less membrane to drain between, get ahead. The paper's necks "
+        "stop at a width comparable to the diffuse layer, which keeps the early order.",
         "The paper prints no numbers for the curves of Fig. 6; only those of its text are compared.",
         *quick_remark(quick),
         *not_run_remarks(runs),

@@ -15,8 +15,11 @@ QUICK_RADII = (28, 36, 48)
 #: Time (µs) at which the paper calls the shapes stationary.
 STATIONARY = 20.0
 
-#: Coat: c above this. A meridional curvature below −DENT (1/nm) in it counts as a dent.
-COATED, DENT = 0.9, 1e-3
+#: A bud whose underside rises by more than this (nm) towards the neck is a mushroom.
+DENT = 1.0
+
+#: Earlier time (µs), soon after most radii have budded, at which necks are compared as well.
+EARLY = 1.0
 
 
 def name_of(radius):
@@ -36,19 +39,19 @@ def wanted(quick, sharp_end=STATIONARY):
     return runs
 
 
-def meridional_curvature(shape):
-    """κ_m (n,) in 1/nm of a Shape: total curvature minus the one along the parallels, sin θ/r (on the axis half of κ)."""
-    slope_z = np.gradient(shape.z, shape.s)
-    along_parallels = np.where(shape.r > 1e-3, -slope_z / np.maximum(shape.r, 1e-3), 0.5 * shape.kappa)
-    return shape.kappa - along_parallels
+def underside(shape, neck):
+    """How far (nm) the bud's wall rises again between its lowest part and the neck, of index `neck`: 0 for a sphere."""
+    widest = int(np.argmax(shape.r[:neck]))
+    z = shape.z[widest : neck + 1]
+    return float((z - np.minimum.accumulate(z)).max())
 
 
-def morphology(shape, neck):
-    """"no neck", "spherical" or "mushroom" (the coat has a part that is curved the other way), of a Shape."""
+def morphology(shape):
+    """"no neck", "spherical" or "mushroom" (its underside rises by more than DENT), of a Shape."""
+    neck = neck_index(shape)
     if neck is None:
         return "no neck"
-    coat = (shape.c > COATED) & (shape.r > 1.0)
-    return "mushroom" if (meridional_curvature(shape)[coat] < -DENT).any() else "spherical"
+    return "mushroom" if underside(shape, neck) > DENT else "spherical"
 
 
 def roundness(shape, neck_index):
@@ -75,8 +78,8 @@ def table(runs):
     for radius in sorted(RADII):
         for engine, run in runs[name_of(radius)].items():
             row = {"patch_radius_nm": radius, "engine": engine, "state": "", "end_us": None, "budding_time_us": None}
-            row |= dict.fromkeys(("neck_radius_nm", "bud_diameter_nm", "bud_height_nm", "roundness", "shape"))
-            row["diameter_at_budding_nm"] = None
+            measured = ("neck_radius_nm", "bud_diameter_nm", "bud_height_nm", "roundness", "underside_rise_nm", "shape")
+            row |= dict.fromkeys((*measured, "neck_radius_at_1_us_nm", "diameter_at_budding_nm"))
             if not is_run(run):
                 rows.append(row | {"state": f"not run: {run.reason}"})
                 continue
@@ -85,9 +88,10 @@ def table(runs):
             row |= {"state": run.record["exit_reason"], "end_us": end, "budding_time_us": run.event_time("budding")}
             for column in ("neck_radius_nm", "bud_diameter_nm", "bud_height_nm"):
                 row[column] = value_at(run, column, min(STATIONARY, end))
-            row["shape"] = morphology(shape, row["neck_radius_nm"])
-            if neck_index(shape) is not None:
-                row["roundness"] = float(roundness(shape, neck_index(shape)))
+            row["neck_radius_at_1_us_nm"] = value_at(run, "neck_radius_nm", EARLY)
+            row["shape"], neck = morphology(shape), neck_index(shape)
+            if neck is not None:
+                row |= {"roundness": float(roundness(shape, neck)), "underside_rise_nm": underside(shape, neck)}
             if row["budding_time_us"] is not None:
                 row["diameter_at_budding_nm"] = value_at(run, "bud_diameter_nm", row["budding_time_us"])
             rows.append(row)

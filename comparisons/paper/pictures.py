@@ -12,8 +12,8 @@ import numpy as np  # noqa: E402
 import plots  # noqa: E402
 from endoflow.curves import arc_length  # noqa: E402
 
-#: Arrows: distance along the membrane (nm), longest arrow (nm), and slowest speed (nm/µs) that is drawn.
-ARROW_SPACING, LONGEST_ARROW, SLOWEST = 8.0, 14.0, 0.1
+#: Distance of arrows along the membrane, nm.
+ARROW_SPACING = 8.0
 
 #: Letters in a line of a panel's sentence.
 WRAP = 34
@@ -78,9 +78,10 @@ def draw_membrane(axes, shape, z_range, rim, line_width=3.0):
 
 
 def arrow_length(speed, fastest):
-    """Length in nm of the arrow of a speed (nm/µs): logarithmic from SLOWEST (0) to `fastest` (LONGEST_ARROW)."""
-    span = np.log10(max(fastest, 10 * SLOWEST) / SLOWEST)
-    return LONGEST_ARROW * np.clip(np.log10(np.maximum(speed, SLOWEST) / SLOWEST) / span, 0, 1)
+    """Length in nm of the arrow of a speed (nm/µs): logarithmic from style.SLOWEST_ARROW (0) to `fastest` (the longest)."""
+    slowest = style.SLOWEST_ARROW
+    span = np.log10(max(fastest, 10 * slowest) / slowest)
+    return style.LONGEST_ARROW * np.clip(np.log10(np.maximum(speed, slowest) / slowest) / span, 0, 1)
 
 
 def draw_arrows(axes, shape):
@@ -104,5 +105,6 @@ def draw_arrows(axes, shape):
             width=0.006,
             zorder=5,
         )
-    note = f"fastest {fastest:.3g} nm/µs" if fastest >= SLOWEST else f"all below {SLOWEST:g} nm/µs"
+    slowest = style.SLOWEST_ARROW
+    note = f"fastest {fastest:.3g} nm/µs" if fastest >= slowest else f"all below {slowest:g} nm/µs"
     axes.text(0.02, 0.97, note, transform=axes.transAxes, va="top", size=7, color=ARROW)

@@ -7,10 +7,6 @@ function themed(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }
 
-function isDark() {
-  return document.documentElement.dataset.theme === "dark";
-}
-
 /** The concentration scale as CSS colours, index 0 for c = 0 to COLOUR_LEVELS for c = 1. */
 function concentrationColours() {
   const stops = report.concentrationStops[isDark() ? 1 : 0].map((hex) =>
@@ -21,21 +17,4 @@ function concentrationColours() {
     const mixed = stops[first].map((channel, i) => channel + (position - first) * (stops[first + 1][i] - channel));
     return `rgb(${mixed.map(Math.round).join(" ")})`;
   });
-}
-
-/** Follow the system's choice of light or dark until the button is used; call `redraw` on each change. */
-function startTheme(redraw) {
-  const button = document.getElementById("theme-toggle");
-  const system = matchMedia("(prefers-color-scheme: dark)");
-  let chosen = false;
-  const apply = (dark) => {
-    document.documentElement.dataset.theme = dark ? "dark" : "light";
-    button.textContent = dark ? "Light" : "Dark";
-    document.getElementById("scale-bar").style.background =
-      `linear-gradient(to right, ${report.concentrationStops[dark ? 1 : 0].join(", ")})`;
-    redraw();
-  };
-  button.addEventListener("click", () => { chosen = true; apply(!isDark()); });
-  system.addEventListener("change", (event) => { if (!chosen) apply(event.matches); });
-  apply(system.matches);
 }

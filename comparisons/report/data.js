@@ -8,7 +8,7 @@ function floats(base64) {
 
 const report = JSON.parse(document.getElementById("report-data").textContent);
 for (const run of report.runs) {
-  for (const field of ["r", "z", "c"]) run[field] = floats(run[field]);
+  for (const field of ["r", "z", "c", "u_r", "u_z"]) run[field] = floats(run[field]);
 }
 for (const chart of report.charts) {
   for (const line of chart.lines) {

@@ -1,6 +1,6 @@
 // Draws both membranes at one frame: run A in the left half-plane, run B in the right one, coloured by c.
 
-/** A view on `canvas`; returns {draw(frame, withOutlines), resize()}. */
+/** A view on `canvas`; returns {draw(frame, {outlines, arrows}), resize()}. */
 function membraneView(canvas) {
   const context = canvas.getContext("2d");
   const margin = { left: 46, right: 14, top: 8, bottom: 44 };
@@ -22,7 +22,7 @@ function membraneView(canvas) {
     canvas.height = Math.round(height * ratio);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     colours = { concentration: concentrationColours() };
-    for (const name of ["extracellular", "cytoplasm", "axis", "muted", "run-a", "run-b", "grid"]) {
+    for (const name of ["extracellular", "cytoplasm", "axis", "ink", "muted", "run-a", "run-b", "grid"]) {
       colours[name] = themed(`--${name}`);
     }
   }
@@ -75,6 +75,33 @@ function membraneView(canvas) {
     context.setLineDash([]);
   }
 
+  /** Velocities as arrows from the membrane; their lengths are logarithmic, see report.arrows. */
+  function drawArrows(run, frame, side) {
+    const { stride, slowest, fastest, longest } = report.arrows;
+    const count = Math.ceil(report.points / stride);
+    context.strokeStyle = context.fillStyle = colours.ink;
+    context.lineWidth = 1.6;
+    for (let i = 0; i < count; ++i) {
+      const u = side * run.u_r[frame * count + i], w = run.u_z[frame * count + i];
+      const speed = Math.hypot(u, w);
+      if (!(speed > slowest)) continue;
+      const length = (scale * longest * Math.log(speed / slowest)) / Math.log(fastest / slowest);
+      const point = frame * report.points + i * stride;
+      drawArrow(toX(side * run.r[point]), toY(run.z[point]), (u / speed) * length, (-w / speed) * length);
+    }
+  }
+
+  function drawArrow(x, y, dx, dy) {
+    const length = Math.hypot(dx, dy), head = Math.min(7, 0.6 * length);
+    const [ex, ey] = [dx / length, dy / length];
+    context.beginPath(); context.moveTo(x, y); context.lineTo(x + dx - ex * head, y + dy - ey * head); context.stroke();
+    context.beginPath();
+    context.moveTo(x + dx, y + dy);
+    context.lineTo(x + dx - head * (ex + 0.4 * ey), y + dy - head * (ey - 0.4 * ex));
+    context.lineTo(x + dx - head * (ex - 0.4 * ey), y + dy - head * (ey + 0.4 * ex));
+    context.fill();
+  }
+
   function drawAxes() {
     context.strokeStyle = colours.axis;
     context.fillStyle = colours.muted;
@@ -118,7 +145,7 @@ function membraneView(canvas) {
     context.fillText("extracellular fluid", toX(-report.rim) + 12, toY(lowest + 3.5));
   }
 
-  function draw(frame, withOutlines) {
+  function draw(frame, shown) {
     context.clearRect(0, 0, canvas.clientWidth, canvas.clientHeight);
     context.fillStyle = colours.cytoplasm;
     context.fillRect(toX(-report.rim), toY(highest), 2 * report.rim * scale, (highest - lowest) * scale);
@@ -130,7 +157,8 @@ function membraneView(canvas) {
       context.clip();
       tintExtracellular(run, frame, side);
       drawMembrane(run, frame, side);
-      if (withOutlines) drawOutline(report.runs[1 - index], frame, side, index === 0 ? colours["run-b"] : colours["run-a"]);
+      if (shown.outlines) drawOutline(report.runs[1 - index], frame, side, index === 0 ? colours["run-b"] : colours["run-a"]);
+      if (shown.arrows) drawArrows(run, frame, side);
       context.restore();
     });
     drawAxes();

@@ -24,7 +24,7 @@ SWITCHES = (
     "--remote-debugging-pipe",
 )
 
-KEY_CODES = {"ArrowLeft": 37, "ArrowRight": 39, " ": 32}
+KEY_CODES = {"ArrowLeft": 37, "ArrowRight": 39, " ": 32, "v": 86}
 
 
 def chromium():
@@ -146,7 +146,7 @@ class Browser:
             "windowsVirtualKeyCode": KEY_CODES[key],
             "modifiers": 8 * shift,
         }
-        self._call("Input.dispatchKeyEvent", {"type": "keyDown", "text": key if key == " " else "", **common})
+        self._call("Input.dispatchKeyEvent", {"type": "keyDown", "text": key if len(key) == 1 else "", **common})
         self._call("Input.dispatchKeyEvent", {"type": "keyUp", **common})
 
     def click(self, x, y):

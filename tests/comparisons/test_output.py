@@ -46,6 +46,21 @@ class Output(unittest.TestCase):
         process = compare(flat, self.a, "-o", self.scratch / "single")
         self.assertEqual((process.returncode, process.stderr), (0, ""))
 
+    def test_one_run_ends_before_the_other_buds(self):
+        """The common times end at 0.5 µs, budding is at 0.73 µs, and the longer run's history at 5 µs."""
+        long = synthetic.write_run(
+            self.scratch / "long",
+            "boundary-integral",
+            lambda t: synthetic.budding_membrane(min(t, 1.0), 1.0),
+            [0.25 * i for i in range(21)],
+            100,
+        )
+        short = synthetic.write_run(
+            self.scratch / "short", "phase-field", lambda t: synthetic.budding_membrane(t, 1.0), [0.0, 0.25, 0.5], 100
+        )
+        process = compare(long, short, "-o", self.scratch / "unequal")
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+
     def test_differing_cases_warn(self):
         case = synthetic.parameters(molecules__patch_radius=40.0)
         other = synthetic.write_run(
