@@ -22,11 +22,11 @@ namespace endoflow::cli {
 namespace {
 
 const std::vector<std::string> engines{"boundary-integral", "phase-field"};
-const std::vector<std::string> commands{"run",  "compare", "converge", "sweep", "reproduce", "movie",
-                                        "laws", "statics", "params",   "check", "summary"};
+const std::vector<std::string> commands{"run",     "compare", "converge", "sweep",  "reproduce", "movie",
+                                        "revolve", "laws",    "statics",  "params", "check",     "summary"};
 
 /// Commands that are Python: comparisons/NAME.py.
-const std::vector<std::string> scripts{"compare", "converge", "sweep", "reproduce", "movie"};
+const std::vector<std::string> scripts{"compare", "converge", "sweep", "reproduce", "movie", "revolve"};
 
 constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, computed by two independent engines
 
@@ -37,6 +37,7 @@ constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, comp
   endoflow sweep CASE.toml --vary KEY=FIRST:LAST:STEP --engine ENGINE [-o DIR] [--jobs N]      many runs of one case
   endoflow reproduce ITEM [--quick|--full] [-o DIR] [--jobs N]     the paper: table2, fig3 ... fig7, figA2 or all
   endoflow movie DIR [-o FILE.mp4|FILE.gif]                a run as a film (needs ffmpeg)
+  endoflow revolve DIR [--angle DEGREES]                   a run's membrane as surfaces in space, for ParaView
   endoflow statics CASE.toml [-o DIR] [--continue-in KEY=END]               stationary shapes of the sharp membrane
   endoflow params [--markdown|--toml]                      every parameter: default, unit, bounds, meaning
   endoflow laws [CASE.toml] [--set section.key=value]...   the constitutive laws b(c), H0(c) as CSV

@@ -77,8 +77,8 @@ def result(runs, quick):
     remarks = [
         f"The neck radii at {STATIONARY:g} µs are not stationary: see Fig. 5. A sharp neck keeps draining, so its value and the "
         f"radius that has the smallest one are a matter of the time chosen: soon after budding, at {EARLY:g} µs, it is the "
-        "paper's radius; later the necks of smaller patches, with less membrane to drain between, get ahead. The paper's necks "
-        "stop at a width comparable to the diffuse layer, which keeps the early order.",
+        "paper's radius; later the necks of smaller patches get ahead. The paper's necks stop at a width comparable to its "
+        "diffuse layer; that this keeps the early order is a guess.",
         "The paper prints no numbers for the curves of Fig. 6; only those of its text are compared.",
         *quick_remark(quick),
         *not_run_remarks(runs),
