@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "boundary_integral/statics/dual.h"
+#include "boundary_integral/statics/dual_system.h"
 #include "shared/model/double_well.h"
 #include "shared/model/initial_condition.h"
 
@@ -13,7 +13,8 @@ namespace endoflow::statics {
 
 namespace {
 
-using Number = Dual<static_cast<std::size_t>(state::equilibrium_states) + 2>;  // all states and globals as variables
+constexpr std::size_t unknowns = static_cast<std::size_t>(state::equilibrium_states) + 2;  // states and globals
+using Number = Dual<unknowns>;
 
 /// What a case's parameters say to the equations.
 struct Setting {
@@ -60,18 +61,13 @@ Number frozen_concentration(const MoleculeParameters& molecules, const Number& a
 
 /// The states and globals as dual numbers, at one point.
 struct Variables {
-    std::array<Number, static_cast<std::size_t>(state::equilibrium_states)> y;
-    std::array<Number, 2> g;
+    std::array<Number, unknowns> y;
+    Eigen::Index states;
 
-    Variables(const Setting& setting, const Eigen::VectorXd& states, const Eigen::VectorXd& globals) {
-        for (Eigen::Index i = 0; i < setting.states; ++i)
-            y[static_cast<std::size_t>(i)] = Number::variable(states(i), static_cast<std::size_t>(i));
-        for (Eigen::Index i = 0; i < setting.globals; ++i)
-            g[static_cast<std::size_t>(i)] =
-                Number::variable(globals(i), static_cast<std::size_t>(state::equilibrium_states + i));
-    }
+    Variables(const Eigen::VectorXd& at, const Eigen::VectorXd& globals)
+        : y(dual_unknowns<unknowns>(at, globals)), states(at.size()) {}
     const Number& operator[](Eigen::Index i) const { return y[static_cast<std::size_t>(i)]; }
-    [[nodiscard]] const Number& global(Eigen::Index i) const { return g[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] const Number& global(Eigen::Index i) const { return y[static_cast<std::size_t>(states + i)]; }
     [[nodiscard]] Number concentration(const Setting& setting, double x) const {
         return setting.frozen ? frozen_concentration(setting.molecules, x * global(global::area))
                               : y[static_cast<std::size_t>(state::concentration)];
@@ -102,7 +98,7 @@ Number concentration_source(const Setting& setting, const Number& c, const Numbe
 }
 
 SlopeValues slope(const Setting& setting, double x, const Eigen::VectorXd& states, const Eigen::VectorXd& globals) {
-    const Variables v(setting, states, globals);
+    const Variables v(states, globals);
     const Number c = v.concentration(setting, x);
     const Number &y = v[state::r_squared], &w = v[state::cosine], &hoop = v[state::hoop], &m = v[state::moment],
                  &thrust = v[state::thrust];
@@ -122,17 +118,10 @@ SlopeValues slope(const Setting& setting, double x, const Eigen::VectorXd& state
         set(state::gradient, concentration_source(setting, c, v.global(global::potential)));
         set(state::mass, c);
     }
-    SlopeValues result{Eigen::VectorXd(setting.states), Eigen::MatrixXd(setting.states, setting.states),
-                       Eigen::MatrixXd(setting.states, setting.globals)};
-    for (Eigen::Index i = 0; i < setting.states; ++i) {
-        const Number by_x = v.global(global::area) * by_a[static_cast<std::size_t>(i)];
-        result.value(i) = by_x.value;
-        for (Eigen::Index j = 0; j < setting.states; ++j)
-            result.by_state(i, j) = by_x.partial[static_cast<std::size_t>(j)];
-        for (Eigen::Index j = 0; j < setting.globals; ++j)
-            result.by_global(i, j) = by_x.partial[static_cast<std::size_t>(state::equilibrium_states + j)];
-    }
-    return result;
+    std::array<Number, unknowns> by_x;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(setting.states); ++i)
+        by_x[i] = v.global(global::area) * by_a[i];
+    return slope_values<unknowns>(by_x, setting.states, setting.globals);
 }
 
 /// λ = m κ1 + Q cos θ − m²/(2β)
@@ -140,52 +129,29 @@ Number tension(const Curvature& curvature, const Number& m, const Number& hoop, 
     return m * (curvature.total - hoop) + thrust * w - 0.5 * m * m / curvature.stiffness;
 }
 
-/// Collects conditions with their derivatives by the states at one end and by the globals.
-struct ConditionList {
-    const Setting& setting;
-    ConditionValues values;
-    Eigen::Index next = 0;
-
-    explicit ConditionList(const Setting& s) : setting(s) {
-        const Eigen::Index count = s.states + s.globals;
-        values = {Eigen::VectorXd(count), Eigen::MatrixXd::Zero(count, s.states),
-                  Eigen::MatrixXd::Zero(count, s.states), Eigen::MatrixXd::Zero(count, s.globals)};
-    }
-    void add(Eigen::MatrixXd ConditionValues::*end, const Number& residual) {
-        values.value(next) = residual.value;
-        for (Eigen::Index j = 0; j < setting.states; ++j)
-            (values.*end)(next, j) = residual.partial[static_cast<std::size_t>(j)];
-        for (Eigen::Index j = 0; j < setting.globals; ++j)
-            values.by_global(next, j) = residual.partial[static_cast<std::size_t>(state::equilibrium_states + j)];
-        ++next;
-    }
-};
-
 ConditionValues conditions(const Setting& setting, const Eigen::VectorXd& first, const Eigen::VectorXd& last,
                            const Eigen::VectorXd& globals) {
-    ConditionList list(setting);
-    const auto axis = &ConditionValues::by_first, rim = &ConditionValues::by_last;
-
-    const Variables at_axis(setting, first, globals);
+    ConditionList<unknowns> list(setting.states, setting.globals);
+    const Variables at_axis(first, globals);
     const Curvature apex(setting, at_axis.concentration(setting, 0), at_axis[state::moment]);
-    list.add(axis, at_axis[state::r_squared]);
-    list.add(axis, at_axis[state::cosine] - 1.0);
-    list.add(axis, apex.total - 2.0 * at_axis[state::hoop]);  // regular: both principal curvatures are equal
+    list.at_first(at_axis[state::r_squared]);
+    list.at_first(at_axis[state::cosine] - 1.0);
+    list.at_first(apex.total - 2.0 * at_axis[state::hoop]);  // regular: both principal curvatures are equal
 
-    const Variables at_rim(setting, last, globals);
+    const Variables at_rim(last, globals);
     const Curvature end(setting, at_rim.concentration(setting, 1), at_rim[state::moment]);
-    list.add(rim, at_rim[state::r_squared] - setting.rim_radius * setting.rim_radius);
-    list.add(rim, at_rim[state::hoop]);  // horizontal tangent
-    list.add(rim,
-             tension(end, at_rim[state::moment], at_rim[state::hoop], at_rim[state::thrust], at_rim[state::cosine]));
-    list.add(rim, at_rim[state::height] - setting.rim_height);
+    list.at_last(at_rim[state::r_squared] - setting.rim_radius * setting.rim_radius);
+    list.at_last(at_rim[state::hoop]);  // horizontal tangent
+    list.at_last(
+        tension(end, at_rim[state::moment], at_rim[state::hoop], at_rim[state::thrust], at_rim[state::cosine]));
+    list.at_last(at_rim[state::height] - setting.rim_height);
     if (!setting.frozen) {
-        list.add(axis, at_axis[state::gradient]);
-        list.add(axis, at_axis[state::mass]);
-        list.add(rim, at_rim[state::gradient]);  // no flux
-        list.add(rim, at_rim[state::mass] - setting.mass);
+        list.at_first(at_axis[state::gradient]);
+        list.at_first(at_axis[state::mass]);
+        list.at_last(at_rim[state::gradient]);  // no flux
+        list.at_last(at_rim[state::mass] - setting.mass);
     }
-    return list.values;
+    return list.values();
 }
 
 }  // namespace
