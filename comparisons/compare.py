@@ -38,8 +38,9 @@ def write_comparison(a, b, output):
     import style
     from metrics import compare_runs
     from report import report_html
+    from stationary import side_by_side
 
-    run_a, run_b = endoflow.load(a), endoflow.load(b)
+    run_a, run_b = side_by_side(endoflow.load(a), endoflow.load(b))
     labels = style.labels(run_a, run_b)
     metrics = compare_runs(run_a, run_b, labels)
     output.mkdir(parents=True, exist_ok=True)
@@ -59,6 +60,8 @@ def summary_lines(metrics, output):
         f"budding time         {times[0]} ({labels[0]}), {times[1]} ({labels[1]})",
         f"mean distance        {found['time_mean_of_mean_distance_nm']:.3g} nm",
         f"Hausdorff distance   at most {found['max_hausdorff_distance_nm']:.3g} nm, at {worst:.4g} µs",
+        f"at the end           {found['final_mean_distance_nm']:.3g} nm on average, "
+        f"{found['final_hausdorff_distance_nm']:.3g} nm at most",
         f"report               {output / 'report.html'}",
     ]
 

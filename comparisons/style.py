@@ -8,7 +8,11 @@ from matplotlib.colors import LinearSegmentedColormap
 #: Colour of each engine (Okabe and Ito, safe for colour-blind readers) on light and on dark ground.
 ENGINE_COLOURS = {"boundary-integral": ("#0072B2", "#4DB2EC"), "phase-field": ("#D55E00", "#FF9248")}
 SECOND_RUN_COLOUR = ("#00805E", "#2CC79B")
-ENGINE_NAMES = {"boundary-integral": "boundary integral", "phase-field": "phase field"}
+ENGINE_NAMES = {
+    "boundary-integral": "boundary integral",
+    "phase-field": "phase field",
+    "statics": "stationary shape",
+}
 
 #: Lines of run A and run B: a thin dashed line on a thick one, so that both show where they coincide, and without colour.
 LINES = ({"linestyle": "-", "linewidth": 2.8}, {"linestyle": (0, (4, 2)), "linewidth": 1.6})
