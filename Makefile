@@ -4,6 +4,7 @@
 #   make test       the same set-up, then all tests, clang-format and clang-tidy   (SANITIZE=1: with sanitizers)
 #   make build      build/endoflow and its engines
 #   make install    DESTDIR and prefix as usual          make package   a Debian package in build/
+#   make docs       docs/ as HTML in build/docs      make docs-check  run every command of README and docs/
 #   make format     clang-format on all sources          make lint      clang-format and clang-tidy, check only
 # PHASEFIELD=OFF leaves the phase-field engine (deal.II, MPI) out of all of them.
 
@@ -29,7 +30,7 @@ ifeq ($(shell id -u),0)
   export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
 endif
 
-.PHONY: all demo test build configure packages test-packages run-demo install package format lint clean
+.PHONY: all demo test build configure packages test-packages run-demo install package docs docs-check format lint clean
 
 all: build
 
@@ -62,6 +63,14 @@ install: build
 
 package: build
 	cd $(build) && cpack
+
+docs: build
+	@tools/install_packages docs
+	python3 tools/docs/build.py $(build)/endoflow $(build)/docs
+
+docs-check: build
+	@tools/install_packages docs test
+	python3 tools/docs/check.py $(build)
 
 format:
 	git ls-files '*.h' '*.cpp' | xargs clang-format -i

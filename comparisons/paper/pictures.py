@@ -55,7 +55,7 @@ def gallery(rows, z_range=None, arrows=False):
                 if arrows:
                     draw_arrows(axes, shape)
     if coloured is not None:
-        bar = figure.colorbar(coloured, ax=grid, label="molecule concentration c", shrink=0.6, aspect=25, pad=0.02)
+        bar = figure.colorbar(coloured, ax=grid, label="concentration c", shrink=0.9, aspect=20, pad=0.02)
         bar.outline.set_visible(False)
     return figure
 

@@ -1,0 +1,129 @@
+"""The documentation: links lead somewhere, every command parses and its options exist, pages build with formulas.
+
+    ENDOFLOW_PROGRAM=build/endoflow python3 tests/comparisons/test_docs.py
+
+`make docs-check` runs the commands.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import locations
+
+TOOLS = locations.ROOT / "tools" / "docs"
+sys.path.insert(0, str(TOOLS))
+
+import check  # noqa: E402
+from pages import Block, blocks, pages  # noqa: E402
+
+LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+PROGRAM = os.environ.get("ENDOFLOW_PROGRAM")
+
+
+class Pages(unittest.TestCase):
+    def test_links_lead_somewhere(self):
+        broken = []
+        for page in (locations.ROOT / "README.md", *pages()):
+            for target in LINK.findall(page.read_text(encoding="utf-8")):
+                if not re.match(r"\w+:|#", target) and not (page.parent / target.split("#")[0]).exists():
+                    broken.append(f"{page.name}: {target}")
+        self.assertEqual(broken, [])
+
+    def test_every_page_is_listed(self):
+        index = (locations.ROOT / "docs" / "index.md").read_text(encoding="utf-8")
+        linked = {target.split("#")[0] for target in LINK.findall(index)}
+        names = {str(page.relative_to(locations.ROOT / "docs")) for page in pages()}
+        self.assertEqual(sorted(name for name in names - linked - {"index.md"} if not name.startswith("results/")), [])
+
+    @unittest.skipUnless(PROGRAM and Path(PROGRAM).exists(), "ENDOFLOW_PROGRAM names no program")
+    def test_every_command_parses(self):
+        process = subprocess.run(
+            [sys.executable, str(TOOLS / "check.py"), str(Path(PROGRAM).parent), "--parse"], capture_output=True, text=True
+        )
+        self.assertEqual((process.returncode, process.stderr.strip()), (0, ""))
+        self.assertRegex(process.stdout, r"0 blocks run, \d\d+ parsed, 0 failed")
+
+    @unittest.skipUnless(PROGRAM and Path(PROGRAM).exists(), "ENDOFLOW_PROGRAM names no program")
+    @unittest.skipUnless(shutil.which("pandoc"), "pandoc is not installed (Debian package pandoc)")
+    def test_html(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            output = Path(scratch) / "html"
+            subprocess.run(
+                [sys.executable, str(TOOLS / "build.py"), PROGRAM, str(output)], check=True, capture_output=True
+            )
+            self.assertIn("<math", (output / "model.html").read_text(encoding="utf-8"))
+            self.assertIn("<code>patch_radius</code>", (output / "parameters.html").read_text(encoding="utf-8"))
+            for page in output.rglob("*.html"):
+                text = page.read_text(encoding="utf-8")
+                self.assertNotRegex(text, r'(src|href)="https?://(?!orcid|doi)[^"]*\.(js|css|png)"', page.name)
+                for target in re.findall(r'(?:src|href)="([^":#]+)["#]', text):
+                    if not target.startswith("../.."):
+                        self.assertTrue((page.parent / target).exists(), f"{page.name}: {target}")
+
+
+class Checker(unittest.TestCase):
+    """The checker finds what it is for."""
+
+    def page(self, text):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        path = Path(scratch.name) / "page.md"
+        path.write_text(text)
+        return path
+
+    def test_blocks_and_marks(self):
+        page = self.page("<!-- fails with 2: why -->\n```sh\nfalse\n```\n\n    build/endoflow check x \\\n        --json\n")
+        found = [(block.kind, block.mark, block.text) for block in blocks(page)]
+        indented = "build/endoflow check x \\\n        --json\n"
+        self.assertEqual(found, [("sh", "fails with 2: why", "false\n"), ("sh", "parse only: indented", indented)])
+
+    def test_exit_codes(self):
+        here = locations.ROOT / "README.md"
+        with tempfile.TemporaryDirectory() as scratch:
+            for kind, mark, text, problem in (
+                ("sh", "", "exit 3", "exit code 3 instead of 0"),
+                ("sh", "fails with 3: reason", "exit 3", ""),
+                ("sh", "", "false | true", "exit code 1"),
+                ("python", "", "import endoflow_of_nobody", "No module named"),
+            ):
+                with self.subTest(text):
+                    found = check.run(Block(here, kind, mark, text), scratch, Path(scratch))
+                    self.assertIn(problem, found) if problem else self.assertEqual(found, "")
+
+    @unittest.skipUnless(PROGRAM and Path(PROGRAM).exists(), "ENDOFLOW_PROGRAM names no program")
+    def test_unknown_commands_and_options(self):
+        here, build = locations.ROOT / "README.md", Path(PROGRAM).parent
+        for text, problem in (
+            ("build/endoflow check a.toml --jsn", "has no --jsn"),
+            ("build/endoflow chek a.toml", "did you mean 'check'"),
+            ("if true; then", "syntax error"),
+            ("mpirun -n 2 build/endoflow sweep a --vary b=1 --engine both", ""),
+        ):
+            with self.subTest(text):
+                found = check.parse(Block(here, "sh", "", text), build)
+                self.assertIn(problem, found) if problem else self.assertEqual(found, "")
+
+
+@unittest.skipUnless(shutil.which("snakemake"), "snakemake is not installed (Debian package snakemake)")
+class Workflow(unittest.TestCase):
+    def test_dry_run(self):
+        snakefile = locations.ROOT / "cases" / "Snakefile"
+        with tempfile.TemporaryDirectory() as scratch:
+            process = subprocess.run(
+                ["snakemake", "--snakefile", str(snakefile), "--cores", "1", "--dry-run"],
+                cwd=scratch,
+                capture_output=True,
+                text=True,
+            )
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertIn("run boundary-integral", process.stdout + process.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
