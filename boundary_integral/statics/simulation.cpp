@@ -156,7 +156,8 @@ EngineIdentity identity() {
             {"patch_radius_nm", "spontaneous_curvature_per_nm", "curve_length_nm", "apex_height_nm",
              "tension_at_axis_pN_per_nm", "branch_length", "folds_passed"},
             1,
-            1};
+            1,
+            RowOrder::along_a_branch};
 }
 
 void require_stationary_model(const Parameters& parameters, const Request& request) {

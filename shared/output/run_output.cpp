@@ -193,7 +193,7 @@ void RunOutput::record_step(HistoryRow row) {
     self.history->append(row);
     self.record["time_us"] = row.time_us;
     self.record["steps"]["accepted"] = self.record["steps"]["accepted"].get<long>() + 1;
-    self.live_line->update(row);
+    if (self.engine.row_order == RowOrder::in_time) self.live_line->update(row);
 }
 
 void RunOutput::count_rejected_step() {

@@ -21,6 +21,9 @@ enum class ExitReason { done, budded, neck_closed, interrupted };
 
 [[nodiscard]] std::string to_string(ExitReason reason);
 
+/// Whether the rows of history.csv follow each other in time, so that the live line can tell how far a run is.
+enum class RowOrder { in_time, along_a_branch };
+
 /// What an engine says of itself once.
 struct EngineIdentity {
     std::string name;                          // "boundary-integral" or "phase-field"
@@ -28,6 +31,7 @@ struct EngineIdentity {
     std::vector<std::string> history_columns;  // its own columns of history.csv, names ending in their unit
     int processes = 1;
     int threads = 1;
+    RowOrder row_order = RowOrder::in_time;
 };
 
 enum class StartMode { fresh, restart };

@@ -133,6 +133,28 @@ TEST_CASE("The fold in patch radius: no state with a neck beyond 25.6 nm", "[sta
     CHECK(state.point.folds_before == 0);
 }
 
+TEST_CASE("Folds in spontaneous curvature and in patch radius are the same states", "[statics]") {
+    // A fold is where the linearised equations without the parameter are singular, whatever the parameter is.
+    const auto fold = [](const Parameters& from, const ParameterPath& path, double begin, double end) {
+        const auto branch = continue_state(find_stationary_state(from), path, begin, end,
+                                           [](const BranchPoint& point) { return point.folds_before == 0; });
+        REQUIRE(branch);
+        REQUIRE(branch->folds.size() == 1);
+        return branch->folds[0].parameter();
+    };
+    const auto with = [](double radius, double curvature) {
+        Parameters parameters = patch(radius, Transport::cahn_hilliard);
+        parameters.membrane.spontaneous_curvature = curvature;
+        return parameters;
+    };
+    const double curvature = fold(
+        with(22, 0.06), [&](double value) { return with(22, value); }, 0.06, 0.12);
+    const double radius = fold(
+        with(20, curvature), [&](double value) { return with(value, curvature); }, 20, 26);
+    CAPTURE(curvature, radius);
+    CHECK(radius == Approx(22).epsilon(1e-7));
+}
+
 TEST_CASE("A case beyond the fold is refused with the fold's place", "[statics]") {
     try {
         (void)find_stationary_state(patch(26.5, Transport::cahn_hilliard), Resolution{4, 24});
