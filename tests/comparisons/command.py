@@ -1,10 +1,14 @@
-"""Runs the command under test."""
+"""Runs the command under test, on two runs whose membranes are parallel curves."""
 
 import os
 import subprocess
 import sys
+import tempfile
+import unittest
+from pathlib import Path
 
 import locations
+import synthetic
 
 
 def compare(*arguments, **environment):
@@ -16,3 +20,24 @@ def compare(*arguments, **environment):
         timeout=60,
         env={**os.environ, **environment},
     )
+
+
+class CommandTest(unittest.TestCase):
+    """What the tests of every command ask."""
+
+    def assert_one_line(self, process, code, pattern):
+        """The command ended with this exit code and one line on stderr that matches."""
+        self.assertEqual(process.returncode, code, process.stderr)
+        self.assertRegex(process.stderr, pattern)
+        self.assertEqual(process.stderr.count("\n"), 1, process.stderr)
+
+
+class CompareTest(CommandTest):
+    """Gives each test self.scratch (Path) with the runs self.a and self.b."""
+
+    @classmethod
+    def setUpClass(cls):
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        cls.scratch = Path(scratch.name)
+        cls.a, cls.b = synthetic.write_pair(cls.scratch, count=9)

@@ -6,11 +6,11 @@ import os
 import subprocess
 import sys
 import tempfile
-import unittest
 from pathlib import Path
 
 import locations
 import synthetic
+from command import CommandTest
 
 PATCHES = "molecules.patch_radius=20:60:20"
 BOUNDARY_INTEGRAL = ("--engine", "boundary-integral")
@@ -18,7 +18,7 @@ BOUNDARY_INTEGRAL = ("--engine", "boundary-integral")
 FAKE = Path(__file__).resolve().parent / "fake_endoflow.py"
 
 
-class StudyTest(unittest.TestCase):
+class StudyTest(CommandTest):
     """Gives each test self.scratch (Path) with case.toml, and the program's log of runs."""
 
     def setUp(self):
@@ -72,11 +72,6 @@ class StudyTest(unittest.TestCase):
         lines = sorted(log.read_text().splitlines()) if log.exists() else []
         log.unlink(missing_ok=True)
         return lines
-
-    def assert_one_line(self, process, code, pattern):
-        self.assertEqual(process.returncode, code, process.stderr)
-        self.assertRegex(process.stderr, pattern)
-        self.assertEqual(process.stderr.count("\n"), 1, process.stderr)
 
 
 class SweepTest(StudyTest):

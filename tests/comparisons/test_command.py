@@ -3,28 +3,17 @@
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
-from pathlib import Path
 
 import locations
 import synthetic
-from command import compare
+from command import CompareTest, compare
 
 
-class Command(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        scratch = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(scratch.cleanup)
-        cls.scratch = Path(scratch.name)
-        cls.a, cls.b = synthetic.write_pair(cls.scratch, count=9)
-
+class Command(CompareTest):
     def assert_one_line(self, process, code, pattern):
-        self.assertEqual(process.returncode, code, process.stderr)
-        self.assertRegex(process.stderr, pattern)
-        self.assertEqual(process.stderr.count("\n"), 1, process.stderr)
+        super().assert_one_line(process, code, pattern)
         self.assertEqual(process.stdout, "")
 
     def test_bad_command_line(self):

@@ -12,6 +12,7 @@ from pathlib import Path
 import locations
 import numpy as np
 import synthetic
+from command import CommandTest
 
 
 def movie(*arguments, **environment):
@@ -25,18 +26,13 @@ def movie(*arguments, **environment):
     )
 
 
-class Movie(unittest.TestCase):
+class Movie(CommandTest):
     @classmethod
     def setUpClass(cls):
         scratch = tempfile.TemporaryDirectory()
         cls.addClassCleanup(scratch.cleanup)
         cls.scratch = Path(scratch.name)
         cls.run_, _ = synthetic.write_pair(cls.scratch, count=9)
-
-    def assert_one_line(self, process, code, pattern):
-        self.assertEqual(process.returncode, code, process.stderr)
-        self.assertRegex(process.stderr, pattern)
-        self.assertEqual(process.stderr.count("\n"), 1, process.stderr)
 
     def probe(self, file):
         """(codec, width, height, frames) of a film."""

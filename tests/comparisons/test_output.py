@@ -1,25 +1,16 @@
 """What `endoflow compare` writes."""
 
 import json
-import tempfile
 import unittest
-from pathlib import Path
 
 import locations  # noqa: F401
 import synthetic
-from command import compare
+from command import CompareTest, compare
 
 PLOTS = ("membranes", "outlines", "concentration", "histories", "distances")
 
 
-class Output(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        scratch = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(scratch.cleanup)
-        cls.scratch = Path(scratch.name)
-        cls.a, cls.b = synthetic.write_pair(cls.scratch, count=9)
-
+class Output(CompareTest):
     def test_writes_everything(self):
         output = self.scratch / "deep" / "out"
         process = compare(self.a, self.b, "-o", output)
