@@ -4,12 +4,14 @@
 #   make test       the same set-up, then all tests, clang-format and clang-tidy   (SANITIZE=1: with sanitizers)
 #   make build      build/endoflow and its engines
 #   make install    DESTDIR and prefix as usual          make package   a Debian package in build/
+#   make bench      what the engines cost here: out/bench/bench.md   (BENCH=--quick: minutes instead of tens of minutes)
 #   make docs       docs/ as HTML in build/docs      make docs-check  run every command of README and docs/
 #   make format     clang-format on all sources          make lint      clang-format and clang-tidy, check only
 # PHASEFIELD=OFF leaves the phase-field engine (deal.II, MPI) out of all of them.
 
 PHASEFIELD ?= ON
 SANITIZE ?= 0
+BENCH ?=
 CORES ?= $(shell nproc)
 prefix ?= /usr/local
 
@@ -30,7 +32,8 @@ ifeq ($(shell id -u),0)
   export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
 endif
 
-.PHONY: all demo test build configure packages test-packages run-demo install package docs docs-check format lint clean
+.PHONY: all demo test build configure packages test-packages run-demo install package bench docs docs-check format
+.PHONY: lint clean
 
 all: build
 
@@ -57,6 +60,10 @@ test: test-packages
 	cmake --build $(build)
 	@$(MAKE) --no-print-directory lint
 	ctest --test-dir $(build) --output-on-failure
+
+bench: build
+	cmake --build $(build) --target bench-ring-kernels
+	bench/bench.py $(build) $(BENCH)
 
 install: build
 	DESTDIR=$(DESTDIR) cmake --install $(build) --prefix $(prefix)

@@ -1,0 +1,84 @@
+"""bench.md and what the terminal shows."""
+
+import measurements
+
+
+def section(name, figure):
+    """Lines of Markdown about one measurement."""
+    if "skipped" in figure:
+        return [f"Skipped: {figure['skipped']}."]
+    return WRITERS[name](figure)
+
+
+def kernels(figure):
+    """A table of rates."""
+    rates = figure["pairs_per_second_and_core"]
+    rows = [f"| {kernel.replace('_', ' ')} | {rate:.2e} |" for kernel, rate in rates.items()]
+    return ["| ring kernel | pairs per second and core |", "| --- | --- |", *rows]
+
+
+def run(figure):
+    """Totals of a run and its phases."""
+    steps, budding = figure["steps"], figure["budding_time_us"]
+    lines = [
+        f"{figure['wall_s']:.2f} s wall, {figure['cpu_s']:.2f} s CPU to {figure['end_us']:.6g} µs "
+        f"({figure['exit_reason']}); {steps['accepted']} steps, {steps['rejected']} rejected; "
+        f"{figure['processes']} processes, {figure['threads']} threads",
+        "" if budding is None else f"budding time {budding:.7f} µs",
+        "",
+        "| phase | wall, s | CPU, s | share of CPU |",
+        "| --- | --- | --- | --- |",
+    ]
+    for phase, spent in sorted(figure["phases"].items(), key=lambda item: -item[1]["cpu_s"]):
+        share = spent["cpu_s"] / figure["cpu_s"]
+        lines.append(f"| {phase} | {spent['wall_s']:.2f} | {spent['cpu_s']:.2f} | {share:.0%} |")
+    return lines
+
+
+def patch_sweep(figure):
+    """One line."""
+    return [
+        f"{figure['wall_s']:.1f} s wall, {figure['cpu_s']:.1f} s CPU; {figure['finished']} of {figure['runs']} runs "
+        f"finished (budding or {figure['until_us']:g} µs)"
+    ]
+
+
+def phase_field_schemes(figure):
+    """CPU time per simulated time of both schemes."""
+    rows = [
+        f"| {scheme} | {cost:.4g} | {figure['schemes'][scheme]['steps']['accepted']} |"
+        for scheme, cost in figure["cpu_s_per_us"].items()
+    ]
+    return [
+        f"To {figure['until_us']:g} µs on one process.",
+        "",
+        "| scheme | CPU s per simulated µs | steps |",
+        "| --- | --- | --- |",
+        *rows,
+        "",
+        f"paper / production: {figure['ratio_paper_to_production']:.3g}",
+    ]
+
+
+WRITERS = {
+    "kernels": kernels,
+    "to_budding": run,
+    "to_the_end": run,
+    "patch_sweep": patch_sweep,
+    "phase_field_schemes": phase_field_schemes,
+}
+
+
+def markdown(found):
+    """All of bench.md."""
+    at = found["machine"]
+    lines = [
+        "# What the engines cost",
+        "",
+        f"{at['processor']}, {at['cores']} cores, {at['system']}; commit {at['commit']}, {at['date']}. "
+        f"Load {at['load_at_start']:.2f} at the start, {at['load_at_end']:.2f} at the end (the bench's own included). "
+        f"Medians of {found['repeats']}" + (" (quick: shorter runs)." if found["quick"] else "."),
+    ]
+    for name, figure in found["figures"].items():
+        lines += ["", f"## {name.replace('_', ' ')}", "", measurements.ALL[name].__doc__, "", *section(name, figure)]
+    return "\n".join(lines) + "\n"
