@@ -26,7 +26,7 @@ CONCENTRATION = LinearSegmentedColormap.from_list("concentration", CONCENTRATION
 EXTRACELLULAR, CYTOPLASM = "#E2EEF7", "#FCFBF7"
 
 #: Velocity arrows are logarithmic: none up to this speed (nm/µs); length (nm) of the fastest one.
-SLOWEST_ARROW, LONGEST_ARROW = 0.1, 14.0
+SLOWEST_ARROW, LONGEST_ARROW = 0.03, 14.0
 
 #: A history column as plotted: its values times `factor` are in `unit`; `logarithmic` where it may span decades.
 HistoryPlot = namedtuple("HistoryPlot", "title unit factor logarithmic")

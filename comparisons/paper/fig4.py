@@ -4,7 +4,7 @@ import style
 
 from .histories import history_figure
 from .item import Printed, Result, both_engines, end_of, final_value, is_run, not_run_remarks, quick_remark, text
-from .snapshots import snapshots
+from .snapshots import membrane_in_fluid, moving_membrane, snapshots
 
 TITLE = "Fig. 4: without flow and with flow"
 DYNAMICS = {"geometric": "without flow", "standard": "with flow"}
@@ -80,7 +80,8 @@ def result(runs, quick):
         "With flow, the sharp membrane's neck reaches 5 nm before the paper's first panel at 2.90 µs and keeps "
         "draining slowly; the paper's stops. A diffuse layer cannot show a neck much narrower than a few of its own "
         "thickness, which is 1.2 nm.",
-        "The print's text and caption agree that the upper row is without flow.",
+        f"Arrows are logarithmic as in the paper, from {style.SLOWEST_ARROW:g} nm/µs upwards, each panel with its own longest one; "
+        "where there is no fluid they show the membrane's velocity.",
         *quick_remark(quick),
         *not_run_remarks(runs),
     ]
@@ -88,8 +89,8 @@ def result(runs, quick):
         (name, engine): f"{title}, {style.ENGINE_NAMES[engine]}" for name, title in DYNAMICS.items() for engine in engines
     }
     figures = {
-        "fig4": ("At the paper's times", snapshots(runs, style.PAPER_TIMES, DYNAMICS, arrows=True)),
-        "fig4_early": ("While the bud forms", snapshots(runs, EARLY_TIMES, DYNAMICS, arrows=True)),
+        "fig4": ("At the paper's times", snapshots(runs, style.PAPER_TIMES, DYNAMICS, membrane_in_fluid)),
+        "fig4_early": ("While the bud forms", snapshots(runs, EARLY_TIMES, DYNAMICS, moving_membrane)),
         "fig4_histories": ("Neck radius, diameter and height", history_figure(runs, names)),
     }
     return Result(rows, figures, printed, remarks)

@@ -5,7 +5,7 @@ import style
 from . import patch_sweep
 from .item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, is_run, last_time, not_run_remarks, quick_remark
 from .patch_sweep import STATIONARY, name_of
-from .pictures import gallery
+from .pictures import Panel, gallery
 from .snapshots import ended_because
 
 TITLE = "Fig. 5: stationary shapes by patch radius"
@@ -17,14 +17,14 @@ wanted = patch_sweep.wanted
 
 
 def panel(radius, run):
-    """(title, Shape or sentence) of a run."""
+    """The Panel of a run."""
     title = f"r_c = {radius} nm"
     if not is_run(run):
-        return title, f"not run: {run.reason}"
+        return Panel(title, f"not run: {run.reason}")
     time = min(STATIONARY, last_time(run))
     if time < STATIONARY:
         title += f", {time:.3g} µs" + ended_because(run).replace("\n", " ")
-    return title, run.shape_at(time)
+    return Panel(title, run.shape_at(time))
 
 
 def panels_of(runs, engine):

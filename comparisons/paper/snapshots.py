@@ -1,19 +1,40 @@
 """Rows of panels for some runs at some times."""
 
 import style
+
 from .item import end_of, is_run, last_time
-from .pictures import gallery
+from .pictures import Panel, fluid_arrows, gallery, membrane_arrows
+
+#: Room (nm) around the membranes in pictures that show the fluid.
+FLUID_MARGIN = 30.0
 
 
-def panels_at(found, times):
-    """[(panel title, Shape or sentence)] of a run at some times (µs)."""
+def panels_at(found, times, draw):
+    """Panels of a run at some times (µs); draw(run, time) makes one."""
     if not is_run(found):
-        return [(f"t = {time:.4g} µs", f"not run: {found.reason}") for time in times]
+        return [Panel(f"t = {time:.4g} µs", f"not run: {found.reason}") for time in times]
     ended = f"the run ended at {end_of(found):.4g} µs" + ended_because(found)
-    return [
-        (f"t = {time:.4g} µs", found.shape_at(time) if time <= last_time(found) * (1 + 1e-12) else ended)
-        for time in times
-    ]
+    reached = last_time(found) * (1 + 1e-12)
+    return [draw(found, time) if time <= reached else Panel(f"t = {time:.4g} µs", ended) for time in times]
+
+
+def membrane(run, time):
+    """The membrane alone."""
+    return Panel(f"t = {time:.4g} µs", run.shape_at(time))
+
+
+def moving_membrane(run, time):
+    """The membrane with its velocity."""
+    shape = run.shape_at(time)
+    return Panel(f"t = {time:.4g} µs", shape, membrane_arrows(shape))
+
+
+def membrane_in_fluid(run, time):
+    """The membrane with the fluid's velocity at the output time nearest to it; its own where the run wrote no fields."""
+    fields = run.fields_at(time) if run.parameters["fluid"]["dynamics"] == "flow" else None
+    if fields is None or abs(fields.time - time) > 0.5 * run.parameters["output"]["field_interval"]:
+        return moving_membrane(run, time)
+    return Panel(f"t = {time:.4g} µs, flow at {fields.time:.4g} µs", run.shape_at(time), fluid_arrows(fields))
 
 
 def ended_because(run):
@@ -22,11 +43,12 @@ def ended_because(run):
     return {"neck_closed": "\n(neck closed)", "budded": "\n(budded)"}.get(reason, "")
 
 
-def snapshots(runs, times, names, arrows=False):
+def snapshots(runs, times, names, draw=membrane):
     """Figure with a row for each engine and run (names: {run name: title}) at times (µs); rows without any shape are left out."""
-    rows = []
-    for name, title in names.items():
-        for engine, found in runs[name].items():
-            rows.append((f"{title}\n{style.ENGINE_NAMES[engine]}", panels_at(found, times)))
-    shown = [row for row in rows if any(not isinstance(shape, str) for _, shape in row[1])]
-    return gallery(shown or rows[:1], arrows=arrows)
+    rows = [
+        (f"{title}\n{style.ENGINE_NAMES[engine]}", panels_at(found, times, draw))
+        for name, title in names.items()
+        for engine, found in runs[name].items()
+    ]
+    shown = [row for row in rows if any(not isinstance(panel.shape, str) for panel in row[1])]
+    return gallery(shown or rows[:1], FLUID_MARGIN if draw is membrane_in_fluid else 7.0)

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from .errors import RERUN, OutOfRangeError, RunDirectoryError
+from .fields import field_files, read_fields
 from .history import read_history, unit_of
 from .shapes import between, read_shapes
 
@@ -41,6 +42,16 @@ class Run:
     def shape_times(self):
         """Times (µs) of the shapes, shape (number of shapes,)."""
         return np.array([shape.time for shape in self.shapes])
+
+    @property
+    def field_times(self):
+        """Times (µs) of the fields for ParaView, shape (number of files,)."""
+        return np.array([time for time, _ in field_files(self.directory)])
+
+    def fields_at(self, time):
+        """The Fields nearest to `time` (µs); None when the run wrote none."""
+        files = field_files(self.directory)
+        return read_fields(*min(files, key=lambda entry: abs(entry[0] - time))) if files else None
 
     def event_time(self, name):
         """Time (µs) of the event called `name` (e.g. "budding"), or None."""

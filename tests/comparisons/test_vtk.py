@@ -12,6 +12,7 @@ from pathlib import Path
 
 import locations
 import numpy as np
+import endoflow
 import synthetic
 from engines import tiny_run
 
@@ -64,6 +65,10 @@ class Fields(unittest.TestCase):
             self.assertTrue((arrays["phi"][points[:, 1] < 60] > 0).all(), "extracellular fluid, φ = 1, is below")
             self.assertTrue((arrays["phi"][points[:, 1] > 100] < 0).all())
             np.testing.assert_allclose(arrays["velocity"][points[:, 0] == 0, 0], 0, atol=1e-6, err_msg="axis")
+            own = endoflow.load(output).fields_at(time)
+            np.testing.assert_array_equal(np.column_stack((own.r, own.z)), points[:, :2])
+            for name, values in arrays.items():
+                np.testing.assert_array_equal(own[name], values, err_msg=f"our reader and VTK: {name}")
             if time == END:
                 self.assertGreater(np.abs(arrays["velocity"]).max(), 1.0, "the membrane moves at once")
                 self.check_contour(grid)
