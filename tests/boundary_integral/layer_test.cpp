@@ -1,15 +1,14 @@
 // Layer potentials: a drop moving in unbounded fluid (exact solution), and the double-layer identity of the box.
 
 #include <catch2/catch.hpp>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "boundary_integral/flow/dense_solver.h"
 #include "boundary_integral/operators/membrane_layers.h"
 #include "boundary_integral/quadrature/singular_rules.h"
 #include "boundary_integral/walls/wall_panels.h"
 #include "curves.h"
+#include "stokes_reference.h"
 
 namespace {
 
@@ -18,20 +17,6 @@ using namespace endoflow::boundary_integral;
 using namespace endoflow::boundary_integral::testing;
 
 constexpr double pi = std::numbers::pi;
-
-// Drag factors of a spherical drop from reference/stokes.csv: viscosity ratio inside/outside -> drag/(6 pi mu a U).
-std::vector<std::pair<double, double>> hadamard_rybczynski() {
-    std::ifstream file(ENDOFLOW_REFERENCE_DIR "/stokes.csv");
-    std::vector<std::pair<double, double>> cases;
-    std::string line;
-    const std::string key = "hadamard_rybczynski,k=";
-    while (std::getline(file, line)) {
-        if (line.rfind(key, 0) != 0) continue;
-        const auto comma = line.find(',', key.size());
-        cases.emplace_back(std::stod(line.substr(key.size(), comma - key.size())), std::stod(line.substr(comma + 1)));
-    }
-    return cases;
-}
 
 struct Drop {
     double speed;          // u_z at the front pole
@@ -90,7 +75,7 @@ Drop rising_drop(Index elements, double inner, double outer) {
 }  // namespace
 
 TEST_CASE("a rising drop has the drag of Hadamard and Rybczynski", "[layers]") {
-    const auto cases = hadamard_rybczynski();
+    const auto cases = stokes_reference("hadamard_rybczynski");  // viscosity ratio inside/outside
     REQUIRE(cases.size() == 3);
     for (const auto& [ratio, factor] : cases) {
         const Drop drop = rising_drop(32, ratio, 1);
