@@ -39,7 +39,8 @@ class CommandLine(unittest.TestCase):
 
     def test_help_and_version(self):
         for arguments in (["--help"], ["--version"], ["run", "--help"], ["run", "boundary-integral", "--help"],
-                          ["params", "--help"], ["check", "--help"], ["summary", "--help"]):
+                          ["params", "--help"], ["check", "--help"], ["summary", "--help"], ["laws", "--help"],
+                          ["reproduce", "--help"], ["movie", "--help"], ["revolve", "--help"]):
             with self.subTest(arguments):
                 result = endoflow(*arguments)
                 self.assertEqual(result.returncode, 0, result.stderr)
@@ -92,6 +93,20 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(endoflow("check", self.case(toml.stdout)).returncode, 0)
         self.assertIn("| `patch_radius` |", endoflow("params", "--markdown").stdout)
         self.assertIn("molecules.patch_radius", endoflow("params").stdout)
+
+    def test_constitutive_laws(self):
+        rows = [row.split(",") for row in endoflow("laws").stdout.splitlines()]
+        table = {name: [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
+        self.assertEqual((table["c"][0], table["c"][50], table["c"][100]), (0, 0.5, 1))
+        # With b_m = 100, b_c = 1100 pN nm at c = 1/2: Table 1, (A.7), (A.8).
+        h = 0.0709219858
+        for name, value in (("linear_b_pN_nm", 650), ("coarse-grained_b_pN_nm", 1200 * 100 / (1200 - 550)),
+                            ("lumped_b_pN_nm", 650), ("linear_H0_per_nm", h / 2),
+                            ("coarse-grained_H0_per_nm", h / 2 * 11 / 12), ("lumped_H0_per_nm", h * 550 / 650)):
+            self.assertAlmostEqual(table[name][50] / value, 1, delta=1e-12, msg=name)
+        softer = endoflow("laws", self.case(""), "--set", "membrane.bending_stiffness=50")
+        self.assertEqual(softer.stdout.splitlines()[1].split(",")[1], "50")
+        self.assert_refused(endoflow("laws", self.root / "none.toml"), 2, "none.toml")
 
     def test_summary_of_nothing(self):
         self.assert_refused(endoflow("summary", self.root), 4, "run.json")
