@@ -1,14 +1,29 @@
 #include "boundary_integral/evolution/membrane_dynamics.h"
 
-#include "shared/model/initial_condition.h"
+#include <utility>
+
+#include "boundary_integral/evolution/initial_curve.h"
+#include "boundary_integral/flow/free_space_flow.h"
+#include "boundary_integral/flow/normal_motion.h"
 
 namespace endoflow::boundary_integral {
 
+namespace {
+
+std::unique_ptr<FlowModel> make_flow(const Parameters& parameters, const MembraneSpace& space) {
+    if (parameters.fluid.dynamics == Dynamics::geometric) return std::make_unique<NormalMotion>(parameters, space);
+    if (parameters.domain.kind == DomainKind::free_space) return std::make_unique<FreeSpaceFlow>(parameters, space);
+    return std::make_unique<BoxFlow>(parameters, space);
+}
+
+}  // namespace
+
 MembraneDynamics::MembraneDynamics(const Parameters& parameters)
     : parameters_(parameters),
-      space_(parameters.boundary_integral.elements, parameters.boundary_integral.quadrature_order),
+      space_(parameters.boundary_integral.elements, parameters.boundary_integral.quadrature_order,
+             parameters.domain.kind == DomainKind::box ? CurveEnd::clamped : CurveEnd::closed),
       model_(parameters.membrane),
-      box_(parameters, space_),
+      flow_(make_flow(parameters, space_)),
       mesh_(space_, {parameters.boundary_integral.mesh_curvature_length, parameters.boundary_integral.mesh_edge_weight,
                      parameters.boundary_integral.mesh_relaxation_time, parameters.boundary_integral.mesh_smoothing}) {}
 
@@ -30,29 +45,34 @@ Eigen::MatrixXd MembraneDynamics::pack_columns(const Eigen::MatrixXd& columns) c
     return packed;
 }
 
+// Moves the nodes along the initial curve until the mesh is the one that the density wants.
 Eigen::VectorXd MembraneDynamics::initial_vector() const {
+    const InitialCurve initial(parameters_);
+    const std::vector<double> points = space_.radial().greville_points();
+    const Interpolation radial(space_.radial()), axial(space_.axial());
+    Eigen::VectorXd shift = Eigen::VectorXd::Zero(space_.radial_count());  // s - xi, s the initial curve's parameter
+    const auto parameter = [&](double xi) { return xi + space_.radial().basis(xi).evaluate(shift); };
     MembraneState state;
-    const std::vector<double> radial_points = space_.radial().greville_points();
-    const std::vector<double> axial_points = space_.axial().greville_points();
-    std::vector<double> r = radial_points;
-    for (double& value : r) value *= parameters_.domain.radius;
-    state.r = interpolate(space_.radial(), r);
-    state.z = Eigen::VectorXd::Constant(space_.axial_count(), parameters_.domain.membrane_height);
     constexpr int sweeps = 200;
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-        std::vector<double> c;
-        for (double xi : axial_points) {
-            c.push_back(initial_concentration(parameters_.molecules, space_.radial().basis(xi).evaluate(state.r)));
+    constexpr double relaxation = 0.3;
+    for (int sweep = 0;; ++sweep) {
+        std::vector<double> r, z, c;
+        for (const double xi : points) r.push_back(initial.radius(parameter(xi)));
+        for (const double xi : space_.axial().greville_points()) {
+            z.push_back(initial.height(parameter(xi)));
+            c.push_back(initial.concentration(parameter(xi)));
         }
-        state.c = interpolate(space_.axial(), c);
+        state = {radial(r), axial(z), axial(c)};
         if (sweep + 1 == sweeps) break;
-        const Eigen::VectorXd numbers = mesh_.wanted_numbers(sample(space_, state));
-        for (std::size_t i = 0; i < r.size(); ++i) {
-            const BasisRow b = space_.radial().basis(radial_points[i]);
-            r[i] -= 0.3 * (b.evaluate(numbers, 0) - radial_points[i]) * b.evaluate(state.r, 1) / b.evaluate(numbers, 1);
+        const Eigen::VectorXd ahead = mesh_.numbers_ahead(sample(space_, state));
+        std::vector<double> shifts;
+        for (const double xi : points) {
+            const BasisRow b = space_.radial().basis(xi);
+            shifts.push_back(b.evaluate(shift) - relaxation * b.evaluate(ahead) * (1.0 + b.evaluate(shift, 1)) /
+                                                     (1.0 + b.evaluate(ahead, 1)));
         }
-        r.back() = parameters_.domain.radius;
-        state.r = interpolate(space_.radial(), r);
+        if (space_.end() == CurveEnd::clamped) shifts.back() = 0.0;
+        shift = radial(shifts);
     }
     const MembraneSamples samples = sample(space_, state);
     Eigen::VectorXd curve(space_.curve_count());
@@ -62,28 +82,30 @@ Eigen::VectorXd MembraneDynamics::initial_vector() const {
 
 MembraneState MembraneDynamics::unpack(const Eigen::VectorXd& y) const {
     MembraneState state;
-    state.r.resize(space_.radial_count());
-    state.r << y.head(free_radial()), parameters_.domain.radius;
-    state.z.resize(space_.axial_count());
-    const double rim = parameters_.domain.membrane_height;
-    state.z << y.segment(free_radial(), free_axial()), rim, rim;
+    state.r = Eigen::VectorXd::Constant(space_.radial_count(), parameters_.domain.radius);
+    state.r.head(free_radial()) = y.head(free_radial());
+    state.z = Eigen::VectorXd::Constant(space_.axial_count(), parameters_.domain.membrane_height);
+    state.z.head(free_axial()) = y.segment(free_radial(), free_axial());
     state.c = Eigen::VectorXd::Zero(space_.axial_count());
     state.c = concentration_from_moments(space_, sample(space_, state).curve, y.tail(space_.axial_count()));
     return state;
 }
 
-Evaluation MembraneDynamics::evaluate(const Eigen::VectorXd& y) const {
+std::shared_ptr<const MobilityOperators> MembraneDynamics::operators(const Eigen::VectorXd& y) const {
+    const MembraneState state = unpack(y);
+    return std::make_shared<const MobilityOperators>(flow_->operators(state, sample(space_, state)));
+}
+
+Evaluation MembraneDynamics::evaluate(const Eigen::VectorXd& y,
+                                      std::shared_ptr<const MobilityOperators> operators) const {
     const MembraneState state = unpack(y);
     const MembraneSamples samples = sample(space_, state);
-    Evaluation e{state,
-                 samples,
-                 bending_energy(space_, state, model_, Derivatives::first),
-                 box_.operators(state, samples),
-                 {},
-                 {},
-                 {},
-                 {}};
-    e.flow = box_.solve(e.operators, e.samples, e.energy, energy_density_at_rim(space_, state, model_));
+    Evaluation e{
+        state, samples, bending_energy(space_, state, model_, Derivatives::first), std::move(operators), {}, {},
+        {},    {}};
+    const double rim_energy_density =
+        space_.end() == CurveEnd::clamped ? energy_density_at_rim(space_, state, model_) : 0.0;
+    e.flow = flow_->solve(*e.operators, e.samples, e.energy, rim_energy_density);
     const Eigen::VectorXd tangential =
         mesh_.tangential_velocity(state, samples, e.flow.inflow, mesh_.relaxation_rate(e.flow.velocity));
     e.mesh_velocity = e.flow.velocity + tangential;
@@ -103,44 +125,51 @@ Evaluation MembraneDynamics::evaluate(const Eigen::VectorXd& y) const {
 Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
     const Index curve = free_radial() + free_axial();
     const Index moments = space_.axial_count();
-    const ClampedVelocities& clamped = e.operators.clamped;
+    const VelocityFreedoms& freedoms = e.operators->freedoms;
     const std::vector<double> tension = values_at_points(space_.tension_rows, e.flow.tension);
     const EnergyDerivatives second = bending_energy(space_, e.state, model_, Derivatives::second, tension);
 
     // Velocity freedoms: delta u = Y delta load with C delta u = - delta C u.
-    Eigen::MatrixXd load_curve = -clamped.restrict_rows(pack_columns(second.hessian));
-    Eigen::MatrixXd load_c = -clamped.restrict_rows(second.mixed);
-    Eigen::MatrixXd velocity_curve = e.operators.mobility * load_curve;
-    Eigen::MatrixXd velocity_c = e.operators.mobility * load_c;
-    if (box_.inextensible()) {
-        const Eigen::MatrixXd divergence = clamped.restrict_columns(divergence_matrix(space_, e.samples));
-        const Eigen::MatrixXd response = e.operators.mobility * divergence.transpose();
+    Eigen::MatrixXd load_curve = -freedoms.restrict_rows(pack_columns(second.hessian));
+    Eigen::MatrixXd load_c = -freedoms.restrict_rows(second.mixed);
+    Eigen::MatrixXd velocity_curve = e.operators->mobility * load_curve;
+    Eigen::MatrixXd velocity_c = e.operators->mobility * load_c;
+    if (flow_->inextensible()) {
+        const Eigen::MatrixXd divergence = freedoms.restrict_columns(divergence_matrix(space_, e.samples));
+        const Eigen::MatrixXd response = e.operators->mobility * divergence.transpose();
         const LuFactors schur(divergence * response, "tension");
         const Eigen::MatrixXd stretching = pack_columns(divergence_variation(space_, e.samples, e.flow.velocity));
         velocity_curve -= response * schur.solve(divergence * velocity_curve + stretching);
         velocity_c -= response * schur.solve(divergence * velocity_c);
     }
-    const Eigen::VectorXd by_inflow = mesh_.derivative_by_inflow(e.state);
-    const auto mesh_rate = [&](const Eigen::MatrixXd& freedoms) {
-        Eigen::MatrixXd full = Eigen::MatrixXd::Zero(space_.curve_count(), freedoms.cols());
-        full.topRows(clamped.freedoms()) = freedoms;
-        full += by_inflow * freedoms.row(space_.radial_count() - 1);
-        return pack_rows(full);
+    const double relaxation = mesh_.relaxation_rate(e.flow.velocity);
+    const MeshMotion::Derivatives mesh = mesh_.derivatives(e.state, e.samples, e.flow.inflow, relaxation);
+    const Eigen::RowVectorXd rate_by_velocity = mesh_.rate_by_velocity(e.flow.velocity);
+    // Variations of the tangential velocity of the mesh and of its whole velocity.
+    const auto tangential = [&](const Eigen::MatrixXd& velocity, const Eigen::MatrixXd& direct) {
+        Eigen::MatrixXd result = direct;
+        if (freedoms.inflow) result.noalias() += mesh.by_inflow * velocity.row(space_.radial_count() - 1);
+        result.noalias() += mesh.by_rate * (rate_by_velocity * velocity).eval();
+        return result;
     };
-    const Eigen::MatrixXd rate_curve =
-        mesh_rate(velocity_curve) +
-        pack_rows(pack_columns(mesh_.derivative_by_curve(e.state, e.samples, mesh_.relaxation_rate(e.flow.velocity))));
-    const Eigen::MatrixXd rate_c = mesh_rate(velocity_c);
+    velocity_curve = freedoms.expand(velocity_curve);
+    velocity_c = freedoms.expand(velocity_c);
+    const Eigen::MatrixXd tangential_curve = tangential(velocity_curve, pack_columns(mesh.by_curve));
+    const Eigen::MatrixXd tangential_c = tangential(velocity_c, mesh.by_concentration);
+    const Eigen::MatrixXd rate_curve = pack_rows(velocity_curve + tangential_curve);
+    const Eigen::MatrixXd rate_c = pack_rows(velocity_c + tangential_c);
 
     const TransportDerivatives transport =
         transport_derivatives(space_, e.samples, e.state.c, parameters_.molecules, e.relative_velocity);
     const Eigen::MatrixXd c_from_curve = pack_columns(transport.c_from_curve);
+    const Eigen::MatrixXd advection = advection_from_mesh_velocity(space_, e.samples);
+    const Eigen::MatrixXd moments_from_curve = pack_columns(transport.rate_from_curve) + advection * tangential_curve;
+    const Eigen::MatrixXd moments_from_c = transport.rate_from_c + advection * tangential_c;
     Eigen::MatrixXd jacobian(size(), size());
     jacobian.topLeftCorner(curve, curve) = rate_curve + rate_c * c_from_curve;
     jacobian.topRightCorner(curve, moments) = rate_c * transport.c_from_moments;
-    jacobian.bottomLeftCorner(moments, curve) =
-        pack_columns(transport.rate_from_curve) + transport.rate_from_c * c_from_curve;
-    jacobian.bottomRightCorner(moments, moments) = transport.rate_from_c * transport.c_from_moments;
+    jacobian.bottomLeftCorner(moments, curve) = moments_from_curve + moments_from_c * c_from_curve;
+    jacobian.bottomRightCorner(moments, moments) = moments_from_c * transport.c_from_moments;
     return jacobian;
 }
 

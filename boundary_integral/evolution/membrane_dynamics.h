@@ -4,9 +4,11 @@
 // integrator needs.
 
 #include <Eigen/Core>
+#include <memory>
 
 #include "boundary_integral/evolution/mesh_motion.h"
 #include "boundary_integral/flow/box_flow.h"
+#include "boundary_integral/flow/flow_model.h"
 #include "boundary_integral/membrane/energy.h"
 #include "boundary_integral/transport/surface_transport.h"
 #include "shared/model/bending_model.h"
@@ -19,32 +21,37 @@ struct Evaluation {
     MembraneState state;
     MembraneSamples samples;
     EnergyDerivatives energy;
-    MobilityOperators operators;
+    std::shared_ptr<const MobilityOperators> operators;
     FlowSolution flow;
     std::vector<double> relative_velocity;  // of the material against the mesh, tangential, at the Gauss points, nm/us
     Eigen::VectorXd mesh_velocity;          // curve_count, nm/us
     Eigen::VectorXd rate;                   // F(y)
 };
 
-// y = (r coefficients without the rim's, z coefficients without the last two, moments of c). The rim's height, its
-// slope and its radius do not move.
+// y = (r coefficients, z coefficients, moments of c). The rim's radius, its height and its slope do not move: their
+// coefficients are left out.
 class MembraneDynamics {
   public:
     explicit MembraneDynamics(const Parameters& parameters);
 
     const MembraneSpace& space() const { return space_; }
-    const BoxFlow& box() const { return box_; }
+    const FlowModel& flow_model() const { return *flow_; }
+    const BoxFlow* box() const { return dynamic_cast<const BoxFlow*>(flow_.get()); }  // nullptr without walls
     const BendingModel& model() const { return model_; }
-    Index size() const { return space_.curve_count() - 3 + space_.axial_count(); }
+    Index size() const { return free_radial() + free_axial() + space_.axial_count(); }
 
-    // Flat membrane with the coat's equilibrium profile on a mesh that resolves it.
+    // Flat membrane or spheroid with the coat's equilibrium profile on a mesh that resolves it.
     Eigen::VectorXd initial_vector() const;
 
     MembraneState unpack(const Eigen::VectorXd& y) const;
-    Evaluation evaluate(const Eigen::VectorXd& y) const;
+    Evaluation evaluate(const Eigen::VectorXd& y) const { return evaluate(y, operators(y)); }
 
-    // dF/dy with the boundary-integral operators frozen: exact Hessian of the energy and of the constraint, exact
-    // transport.
+    // The hydrodynamic operators cost far more than the rest and depend smoothly on the shape: they may be taken from
+    // a shape that is known to be close.
+    std::shared_ptr<const MobilityOperators> operators(const Eigen::VectorXd& y) const;
+    Evaluation evaluate(const Eigen::VectorXd& y, std::shared_ptr<const MobilityOperators> operators) const;
+
+    // dF/dy at fixed operators, exact.
     Eigen::MatrixXd jacobian(const Evaluation& evaluation) const;
 
     // Absolute errors that count as one unit: `length` for coefficients of the curve, `concentration` for those of c.
@@ -54,11 +61,11 @@ class MembraneDynamics {
     Parameters parameters_;
     MembraneSpace space_;
     BendingModel model_;
-    BoxFlow box_;
+    std::unique_ptr<FlowModel> flow_;
     MeshMotion mesh_;
 
-    Index free_radial() const { return space_.radial_count() - 1; }
-    Index free_axial() const { return space_.axial_count() - 2; }
+    Index free_radial() const { return space_.radial_count() - space_.fixed_radial(); }
+    Index free_axial() const { return space_.axial_count() - space_.fixed_axial(); }
     Eigen::VectorXd pack(const Eigen::VectorXd& curve, const Eigen::VectorXd& moments) const;
     Eigen::MatrixXd pack_rows(const Eigen::MatrixXd& curve_rows) const;
     Eigen::MatrixXd pack_columns(const Eigen::MatrixXd& curve_columns) const;

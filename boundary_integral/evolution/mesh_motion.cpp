@@ -1,6 +1,7 @@
 #include "boundary_integral/evolution/mesh_motion.h"
 
 #include <cmath>
+#include <utility>
 
 #include "boundary_integral/membrane/energy.h"
 
@@ -24,6 +25,10 @@ Eigen::MatrixXd one_dimensional_matrix(const MembraneSpace& space, const std::ve
     return matrix;
 }
 
+// The relaxation's rate falls to a tenth for a membrane that moves much slower than this.
+constexpr double slow_speed = 1.0;  // nm/us
+constexpr double at_rest = 0.1;
+
 double inflow_profile(double xi) {
     return xi * xi * xi * xi * xi;
 }
@@ -41,39 +46,71 @@ MeshMotion::MeshMotion(const MembraneSpace& space, const MeshDensity& density)
                                      density.smoothing * density.smoothing, 1.0),
               "mesh filter"),
       antiderivative_(one_dimensional_matrix(space, space.radial_rows, space.radial_count(), 1.0, 0.0),
-                      "antiderivative") {}
+                      "antiderivative"),
+      identity_(Eigen::VectorXd::Zero(space.radial_count())) {
+    if (space.end() == CurveEnd::clamped) {
+        identity_ = Eigen::Map<const Eigen::VectorXd>(radial_points_.data(), space.radial_count());
+    }
+}
 
-double MeshMotion::relaxation_rate(const Eigen::VectorXd& velocity) const {
-    constexpr double slow_speed = 1.0;  // nm/us
-    constexpr double at_rest = 0.1;
+double MeshMotion::mean_speed(const Eigen::VectorXd& velocity) const {
     const Eigen::VectorXd u_r = velocity.head(space_.radial_count()), u_z = velocity.tail(space_.axial_count());
     double squared = 0.0;
     for (std::size_t i = 0; i < space_.xi.size(); ++i) {
         const double r = space_.radial_rows[i].evaluate(u_r), z = space_.axial_rows[i].evaluate(u_z);
         squared += space_.weight[i] * (r * r + z * z);
     }
-    const double speed = std::sqrt(squared);
+    return std::sqrt(squared);
+}
+
+double MeshMotion::relaxation_rate(const Eigen::VectorXd& velocity) const {
+    const double speed = mean_speed(velocity);
     return (at_rest + (1.0 - at_rest) * speed / (speed + slow_speed)) / density_.relaxation_time;
+}
+
+Eigen::RowVectorXd MeshMotion::rate_by_velocity(const Eigen::VectorXd& velocity) const {
+    const double speed = mean_speed(velocity);
+    Eigen::RowVectorXd derivative = Eigen::RowVectorXd::Zero(space_.curve_count());
+    if (speed == 0.0) return derivative;
+    const double by_speed =
+        (1.0 - at_rest) * slow_speed / ((speed + slow_speed) * (speed + slow_speed) * density_.relaxation_time);
+    const Index offset = space_.radial_count();
+    const Eigen::VectorXd u_r = velocity.head(offset), u_z = velocity.tail(space_.axial_count());
+    for (std::size_t i = 0; i < space_.xi.size(); ++i) {
+        const BasisRow& radial = space_.radial_rows[i];
+        const BasisRow& axial = space_.axial_rows[i];
+        const double factor = space_.weight[i] * by_speed / speed;
+        const double r = factor * radial.evaluate(u_r), z = factor * axial.evaluate(u_z);
+        for (std::size_t j = 0; j < 6; ++j) {
+            derivative[radial.index[j]] += r * radial.value[0][j];
+            derivative[offset + axial.index[j]] += z * axial.value[0][j];
+        }
+    }
+    return derivative;
+}
+
+double MeshMotion::wanted_density(const CurvePoint& p, double c) const {
+    const double length = density_.curvature_length;
+    const double bend =
+        length * length *
+        (p.meridional_curvature * p.meridional_curvature + p.azimuthal_curvature * p.azimuthal_curvature);
+    const double edge = density_.edge_weight * 4.0 * c * (1.0 - c);
+    return std::sqrt(1.0 + bend + edge * edge);
 }
 
 // rho - l^2 rho'' = wanted: neighbouring elements differ by a factor of at most exp(h/l).
 std::vector<double> MeshMotion::filtered_density(const MembraneSamples& samples) const {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(space_.axial_count());
-    const double length = density_.curvature_length;
     for (std::size_t i = 0; i < space_.xi.size(); ++i) {
-        const CurvePoint& p = samples.curve[i];
-        const double bend =
-            length * length *
-            (p.meridional_curvature * p.meridional_curvature + p.azimuthal_curvature * p.azimuthal_curvature);
-        const double edge = density_.edge_weight * 4.0 * samples.c[i] * (1.0 - samples.c[i]);
-        const double wanted = std::sqrt(1.0 + bend + edge * edge);
+        const double wanted = wanted_density(samples.curve[i], samples.c[i]);
         const BasisRow& b = space_.axial_rows[i];
         for (std::size_t j = 0; j < 6; ++j) right[b.index[j]] += space_.weight[i] * wanted * b.value[0][j];
     }
     return values_at_points(space_.axial_rows, filter_.solve(right));
 }
 
-Eigen::VectorXd MeshMotion::wanted_numbers(const MembraneSamples& samples) const {
+// int B' (N - xi)' dxi = int B' (rho g/total - 1) dxi; mirrored at both ends, the 1 has no part in the space.
+Eigen::VectorXd MeshMotion::numbers_ahead(const MembraneSamples& samples) const {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(space_.radial_count());
     const std::vector<double> density = filtered_density(samples);
     double total = 0.0;
@@ -83,7 +120,7 @@ Eigen::VectorXd MeshMotion::wanted_numbers(const MembraneSamples& samples) const
         const BasisRow& b = space_.radial_rows[i];
         for (std::size_t j = 0; j < 6; ++j) right[b.index[j]] += value * b.value[1][j];
     }
-    return antiderivative_.solve(right / total);
+    return antiderivative_.solve(right / total) - identity_;
 }
 
 template <class Speed>
@@ -107,63 +144,122 @@ Eigen::VectorXd MeshMotion::interpolate_tangential(const MembraneState& state, S
 
 Eigen::VectorXd MeshMotion::tangential_velocity(const MembraneState& state, const MembraneSamples& samples,
                                                 double inflow, double rate) const {
-    const Eigen::VectorXd numbers = wanted_numbers(samples);
+    const Eigen::VectorXd ahead = numbers_ahead(samples);
     return interpolate_tangential(state, [&](double xi, const CurvePoint& p) {
         const BasisRow b = space_.radial().basis(xi);
-        return -inflow * inflow_profile(xi) - (b.evaluate(numbers, 0) - xi) * p.g * rate / b.evaluate(numbers, 1);
+        return -inflow * inflow_profile(xi) - b.evaluate(ahead, 0) * p.g * rate / (1.0 + b.evaluate(ahead, 1));
     });
 }
 
-Eigen::VectorXd MeshMotion::derivative_by_inflow(const MembraneState& state) const {
-    return interpolate_tangential(state, [](double xi, const CurvePoint&) { return -inflow_profile(xi); });
-}
-
-Eigen::MatrixXd MeshMotion::derivative_by_curve(const MembraneState& state, const MembraneSamples& samples,
-                                                double rate) const {
-    // delta N = S^-1 int B' rho delta g / total - N delta total/total, delta g = (r' delta r' + z' delta z')/g
-    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(space_.radial_count(), space_.curve_count());
-    Eigen::RowVectorXd total_variation = Eigen::RowVectorXd::Zero(space_.curve_count());
-    double total = 0.0;
-    const Index offset = space_.radial_count();
+MeshMotion::Derivatives MeshMotion::derivatives(const MembraneState& state, const MembraneSamples& samples,
+                                                double inflow, double rate) const {
+    const Index offset = space_.radial_count(), curve = space_.curve_count(), axial_count = space_.axial_count();
+    const Index variables = curve + axial_count;  // (r, z, c) coefficients
+    const double length = density_.curvature_length;
     const std::vector<double> density = filtered_density(samples);
+
+    // Variations of the unfiltered density against the axial functions, of int rho g B' and of its total; the last two
+    // first at fixed rho, with what a variation of rho adds to them.
+    Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(axial_count, variables);
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(offset, variables);
+    Eigen::MatrixXd right_by_density = Eigen::MatrixXd::Zero(offset, axial_count);
+    Eigen::RowVectorXd total_variation = Eigen::RowVectorXd::Zero(variables);
+    Eigen::RowVectorXd total_by_density = Eigen::RowVectorXd::Zero(axial_count);
+    double total = 0.0;
     for (std::size_t i = 0; i < space_.xi.size(); ++i) {
         const CurvePoint& p = samples.curve[i];
-        const double rho = space_.weight[i] * density[i];
-        total += rho * p.g;
         const BasisRow& b = space_.radial_rows[i];
         const BasisRow& a = space_.axial_rows[i];
+        const double weight = space_.weight[i], c = samples.c[i];
+        const double per_wanted = weight / wanted_density(p, c);
+        const double m = length * length * p.meridional_curvature, q = length * length * p.azimuthal_curvature;
+        const double square = p.g * p.g, cube = square * p.g;
+        const double stretch = -(3.0 * m * p.meridional_curvature + q * p.azimuthal_curvature) / square;
+        const double by_r = -q * p.azimuthal_curvature / p.r;
+        const double by_r1 = -m * p.z2 / cube + stretch * p.r1, by_r2 = m * p.z1 / cube;
+        const double by_z1 = m * p.r2 / cube + stretch * p.z1 - q / (p.r * p.g), by_z2 = -m * p.r1 / cube;
+        const double by_c = 16.0 * density_.edge_weight * density_.edge_weight * c * (1.0 - c) * (1.0 - 2.0 * c);
+        const double rho = weight * density[i];
+        total += rho * p.g;
         for (std::size_t k = 0; k < 6; ++k) {
-            const double from_r = rho * p.r1 / p.g * b.value[1][k];
-            const double from_z = rho * p.z1 / p.g * a.value[1][k];
+            const double from_r = rho * p.r1 / p.g * b.value[1][k], from_z = rho * p.z1 / p.g * a.value[1][k];
+            const double wanted_r = per_wanted * (by_r * b.value[0][k] + by_r1 * b.value[1][k] + by_r2 * b.value[2][k]);
+            const double wanted_z = per_wanted * (by_z1 * a.value[1][k] + by_z2 * a.value[2][k]);
+            const double wanted_c = per_wanted * by_c * a.value[0][k];
             total_variation[b.index[k]] += from_r;
             total_variation[offset + a.index[k]] += from_z;
+            total_by_density[a.index[k]] += weight * p.g * a.value[0][k];
             for (std::size_t j = 0; j < 6; ++j) {
                 right(b.index[j], b.index[k]) += b.value[1][j] * from_r;
                 right(b.index[j], offset + a.index[k]) += b.value[1][j] * from_z;
+                right_by_density(b.index[j], a.index[k]) += weight * p.g * b.value[1][j] * a.value[0][k];
+                wanted(a.index[j], b.index[k]) += a.value[0][j] * wanted_r;
+                wanted(a.index[j], offset + a.index[k]) += a.value[0][j] * wanted_z;
+                wanted(a.index[j], curve + a.index[k]) += a.value[0][j] * wanted_c;
             }
         }
     }
-    const Eigen::VectorXd numbers = wanted_numbers(samples);
-    const Eigen::MatrixXd variation = (antiderivative_.solve(right) - numbers * total_variation) / total;
-    Eigen::MatrixXd r(space_.radial_count(), space_.curve_count()), z(space_.axial_count(), space_.curve_count());
-    const auto row = [&](double xi, bool radial) -> Eigen::RowVectorXd {
+    const Eigen::MatrixXd density_variation = filter_.solve(std::move(wanted));
+    right += right_by_density * density_variation;
+    total_variation += total_by_density * density_variation;
+    const Eigen::VectorXd ahead_of_xi = numbers_ahead(samples);
+    const Eigen::MatrixXd variation =
+        (antiderivative_.solve(std::move(right)) - (ahead_of_xi + identity_) * total_variation) / total;
+
+    // alpha t = -inflow xi^5 x'/g - rate (N - xi) x'/N' at the interpolation points
+    Eigen::MatrixXd r = Eigen::MatrixXd::Zero(offset, variables), z = Eigen::MatrixXd::Zero(axial_count, variables);
+    Eigen::MatrixXd r_rate(offset, 1), z_rate(axial_count, 1);
+    const auto fill = [&](double xi, bool radial, auto row, double& by_rate) {
         const BasisRow b = space_.radial().basis(xi);
-        const CurvePoint p = curve_point(b, space_.axial().basis(xi), state);
-        Eigen::RowVectorXd change = Eigen::RowVectorXd::Zero(space_.curve_count());
-        for (std::size_t j = 0; j < 6; ++j) change += b.value[0][j] * variation.row(b.index[j]);
-        const double tangent = radial ? p.r1 : p.z1;  // t g
-        return -change * tangent * rate / b.evaluate(numbers, 1);
+        const BasisRow a = space_.axial().basis(xi);
+        const CurvePoint p = curve_point(b, a, state);
+        const double slope = 1.0 + b.evaluate(ahead_of_xi, 1), ahead = b.evaluate(ahead_of_xi, 0);
+        const double tangent = radial ? p.r1 : p.z1;
+        const double normal = radial ? p.normal_r : p.normal_z;
+        by_rate = -ahead * tangent / slope;
+        const double turning = -inflow * inflow_profile(xi) * normal / p.g;  // delta t = n (n.delta x')/g
+        for (std::size_t j = 0; j < 6; ++j) {
+            const double factor = -rate * tangent / slope * (b.value[0][j] - ahead / slope * b.value[1][j]);
+            row += factor * variation.row(b.index[j]);
+            row(b.index[j]) += turning * p.normal_r * b.value[1][j];
+            row(offset + a.index[j]) += turning * p.normal_z * a.value[1][j];
+            if (radial) {
+                row(b.index[j]) -= rate * ahead / slope * b.value[1][j];
+            } else {
+                row(offset + a.index[j]) -= rate * ahead / slope * a.value[1][j];
+            }
+        }
     };
-    for (std::size_t i = 0; i < radial_points_.size(); ++i) r.row(static_cast<Index>(i)) = row(radial_points_[i], true);
-    for (std::size_t i = 0; i < axial_points_.size(); ++i) z.row(static_cast<Index>(i)) = row(axial_points_[i], false);
-    Eigen::MatrixXd result(space_.curve_count(), space_.curve_count());
-    result << radial_interpolation_.solve(r), axial_interpolation_.solve(z);
+    for (std::size_t i = 0; i < radial_points_.size(); ++i) {
+        const auto row = static_cast<Index>(i);
+        fill(radial_points_[i], true, r.row(row), r_rate(row, 0));
+    }
+    for (std::size_t i = 0; i < axial_points_.size(); ++i) {
+        const auto row = static_cast<Index>(i);
+        fill(axial_points_[i], false, z.row(row), z_rate(row, 0));
+    }
+    radial_interpolation_.solve_in_place(r);
+    axial_interpolation_.solve_in_place(z);
+    Derivatives result;
+    result.by_curve.resize(curve, curve);
+    result.by_curve << r.leftCols(curve), z.leftCols(curve);
+    result.by_concentration.resize(curve, axial_count);
+    result.by_concentration << r.rightCols(axial_count), z.rightCols(axial_count);
+    result.by_rate.resize(curve);
+    result.by_rate << radial_interpolation_.solve(r_rate), axial_interpolation_.solve(z_rate);
+    result.by_inflow = interpolate_tangential(state, [](double xi, const CurvePoint&) { return -inflow_profile(xi); });
     return result;
 }
 
+Interpolation::Interpolation(const SplineSpace& space)
+    : factors_(collocation_matrix(space, space.greville_points()), "interpolation") {}
+
+Eigen::VectorXd Interpolation::operator()(const std::vector<double>& values) const {
+    return factors_.solve(Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Index>(values.size())));
+}
+
 Eigen::VectorXd interpolate(const SplineSpace& space, const std::vector<double>& values) {
-    const LuFactors factors(collocation_matrix(space, space.greville_points()), "interpolation");
-    return factors.solve(Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Index>(values.size())));
+    return Interpolation(space)(values);
 }
 
 }  // namespace endoflow::boundary_integral

@@ -29,31 +29,49 @@ class MeshMotion {
 
     // Tangential velocity field added to the material velocity, as coefficients (curve_count), nm/us:
     //     alpha t,  alpha = -inflow xi^5 - rate (N - xi) g / N'
-    // N(xi): fraction of elements the density wants between the axis and xi.
+    // N(xi): fraction of elements the density wants between the axis and xi; N(1) = 1.
     Eigen::VectorXd tangential_velocity(const MembraneState& state, const MembraneSamples& samples, double inflow,
                                         double rate) const;
 
-    // Its derivative with respect to the inflow, and with respect to the curve at fixed density rho (relaxation only).
-    Eigen::VectorXd derivative_by_inflow(const MembraneState& state) const;
-    Eigen::MatrixXd derivative_by_curve(const MembraneState& state, const MembraneSamples& samples,
-                                        double inflow) const;
+    // Its derivatives.
+    struct Derivatives {
+        Eigen::MatrixXd by_curve;          // curve_count x curve_count, at fixed c(xi), inflow and rate
+        Eigen::MatrixXd by_concentration;  // curve_count x axial_count
+        Eigen::VectorXd by_inflow;         // curve_count
+        Eigen::VectorXd by_rate;           // curve_count
+    };
+    Derivatives derivatives(const MembraneState& state, const MembraneSamples& samples, double inflow,
+                            double rate) const;
 
-    // The wanted element numbers N as radial coefficients; N(1) = 1.
-    Eigen::VectorXd wanted_numbers(const MembraneSamples& samples) const;
+    // d(relaxation_rate)/d(velocity), curve_count.
+    Eigen::RowVectorXd rate_by_velocity(const Eigen::VectorXd& velocity) const;
+
+    // N - xi as radial coefficients.
+    Eigen::VectorXd numbers_ahead(const MembraneSamples& samples) const;
 
   private:
     const MembraneSpace& space_;
     MeshDensity density_;
     std::vector<double> radial_points_, axial_points_;  // Greville points of the two spaces
     LuFactors radial_interpolation_, axial_interpolation_, filter_, antiderivative_;
+    Eigen::VectorXd identity_;  // xi itself in the radial space, as far as its ends let it
 
-    double relaxation_rate(double inflow) const;                                 // 1/us
+    double mean_speed(const Eigen::VectorXd& velocity) const;
+    double wanted_density(const CurvePoint& p, double c) const;
     std::vector<double> filtered_density(const MembraneSamples& samples) const;  // at the Gauss points
     template <class Speed>
     Eigen::VectorXd interpolate_tangential(const MembraneState& state, Speed speed) const;
 };
 
-// Interpolates values at the Greville points of a space.
+// Spline coefficients from values at the Greville points of a space.
+class Interpolation {
+  public:
+    explicit Interpolation(const SplineSpace& space);
+    Eigen::VectorXd operator()(const std::vector<double>& values) const;
+
+  private:
+    LuFactors factors_;
+};
 Eigen::VectorXd interpolate(const SplineSpace& space, const std::vector<double>& values_at_greville_points);
 
 }  // namespace endoflow::boundary_integral

@@ -23,6 +23,30 @@ double stationary_radius(const MembraneSpace& space, const MembraneState& state,
     return middle;
 }
 
+double height(const MembraneSpace& space, const MembraneSamples& samples, const MembraneState& state,
+              const DomainParameters& domain) {
+    double highest = space.axial().basis(0.0).evaluate(state.z);
+    double lowest = space.end() == CurveEnd::closed ? space.axial().basis(1.0).evaluate(state.z) : highest;
+    for (const CurvePoint& p : samples.curve) {
+        highest = std::max(highest, p.z);
+        lowest = std::min(lowest, p.z);
+    }
+    return highest - (space.end() == CurveEnd::closed ? lowest : domain.membrane_height);
+}
+
+double wall_distance(const MembraneSpace& space, const MembraneSamples& samples, const DomainParameters& domain) {
+    double to_rim = 0.0;
+    for (std::size_t i = 0; i < space.xi.size(); ++i) to_rim += space.weight[i] * samples.curve[i].g;
+    double distance = 1e300;
+    for (std::size_t i = 0; i < space.xi.size(); ++i) {
+        const CurvePoint& p = samples.curve[i];
+        to_rim -= space.weight[i] * p.g;
+        distance = std::min({distance, p.z, domain.height - p.z});
+        if (to_rim > 4.0 * domain.wall_clearance) distance = std::min(distance, domain.radius - p.r);
+    }
+    return distance;
+}
+
 }  // namespace
 
 std::optional<NeckOfCurve> find_neck(const MembraneSpace& space, const MembraneState& state) {
@@ -46,33 +70,28 @@ std::optional<NeckOfCurve> find_neck(const MembraneSpace& space, const MembraneS
 
 ShapeIntegrals shape_integrals(const MembraneSpace& space, const MembraneState& state, const DomainParameters& domain) {
     ShapeIntegrals result;
-    result.wall_distance = 1e300;
     const MembraneSamples samples = sample(space, state);
-    double to_rim = 0.0;
-    for (std::size_t i = 0; i < space.xi.size(); ++i) to_rim += space.weight[i] * samples.curve[i].g;
-    result.height = space.axial().basis(0.0).evaluate(state.z) - domain.membrane_height;
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
         const CurvePoint& p = samples.curve[i];
         const double ring = two_pi * space.weight[i] * p.r;
         result.area += ring * p.g;
         result.mass += ring * p.g * samples.c[i];
         result.extracellular_volume += ring * p.r1 * (p.z - domain.membrane_height);
-        result.height = std::max(result.height, p.z - domain.membrane_height);
-        to_rim -= space.weight[i] * p.g;
-        result.wall_distance = std::min({result.wall_distance, p.z, domain.height - p.z});
-        if (to_rim > 4.0 * domain.wall_clearance)
-            result.wall_distance = std::min(result.wall_distance, domain.radius - p.r);
     }
+    result.height = height(space, samples, state, domain);
+    if (domain.kind == DomainKind::box) result.wall_distance = wall_distance(space, samples, domain);
     return result;
 }
 
 double EnergyBalance::residual() const {
-    return std::abs(energy_rate + dissipated_power - diffusive_power) / (std::abs(dissipated_power) + 1e-300);
+    constexpr double slowest = 1e-9;  // 1/us: what changes the energy more slowly is a membrane at rest
+    return std::abs(energy_rate + dissipated_power - diffusive_power) / (std::abs(dissipated_power) + slowest * energy);
 }
 
 EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& e) {
     const MembraneSpace& space = dynamics.space();
     EnergyBalance balance{};
+    balance.energy = two_pi * e.energy.energy;
     // c' at fixed xi from the moments: M c' = m' - M' c, M' c = int phi c D(r g)[w] dxi with the mesh velocity w.
     const Eigen::VectorXd w_r = e.mesh_velocity.head(space.radial_count());
     const Eigen::VectorXd w_z = e.mesh_velocity.tail(space.axial_count());
@@ -95,16 +114,7 @@ EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation&
     const Eigen::VectorXd c_carried = mass.solve(advected);
     balance.energy_rate = two_pi * (e.energy.gradient.dot(e.mesh_velocity) + e.energy.gradient_c.dot(c_rate));
     balance.diffusive_power = two_pi * e.energy.gradient_c.dot(c_rate - c_carried);
-    const Eigen::VectorXd f_r = e.flow.force.head(space.radial_count());
-    const Eigen::VectorXd f_z = e.flow.force.tail(space.force().dimension());
-    for (std::size_t i = 0; i < space.xi.size(); ++i) {
-        const CurvePoint& p = e.samples.curve[i];
-        const double u_r = space.radial_rows[i].evaluate(e.flow.velocity.head(space.radial_count()));
-        const double u_z = space.axial_rows[i].evaluate(e.flow.velocity.tail(space.axial_count()));
-        balance.dissipated_power +=
-            two_pi * space.weight[i] * p.r * p.g *
-            (u_r * space.radial_rows[i].evaluate(f_r) + u_z * space.force_rows[i].evaluate(f_z));
-    }
+    balance.dissipated_power = e.flow.power;
     return balance;
 }
 
@@ -127,13 +137,14 @@ MembraneCurve membrane_curve(const MembraneSpace& space, const Evaluation& e, In
         const BasisRow radial = space.radial().basis(xi);
         const BasisRow axial = space.axial().basis(xi);
         const CurvePoint p = curve_point(radial, axial, e.state);
+        const bool on_axis = i == 0 || (i == intervals && space.end() == CurveEnd::closed);
         curve.s.push_back(arc_length);
-        curve.r.push_back(i == 0 ? 0.0 : p.r);
+        curve.r.push_back(on_axis ? 0.0 : p.r);
         curve.z.push_back(p.z);
         curve.c.push_back(axial.evaluate(e.state.c));
         curve.lambda.push_back(space.tension().basis(xi).evaluate(e.flow.tension));
         curve.kappa.push_back(p.total_curvature());
-        curve.u_r.push_back(i == 0 ? 0.0 : radial.evaluate(u_r));
+        curve.u_r.push_back(on_axis ? 0.0 : radial.evaluate(u_r));
         curve.u_z.push_back(axial.evaluate(u_z));
     }
     return curve;

@@ -22,15 +22,16 @@ std::optional<NeckOfCurve> find_neck(const MembraneSpace& space, const MembraneS
 struct ShapeIntegrals {
     double area = 0.0;                  // nm^2
     double mass = 0.0;                  // int c dA, nm^2
-    double extracellular_volume = 0.0;  // int (z - z_rim) 2 pi r dr, nm^3
-    double height = 0.0;                // largest z - z_rim, nm
-    double wall_distance = 0.0;         // to bottom, top and side, the neighbourhood of the rim left out, nm
+    double extracellular_volume = 0.0;  // int (z - z_rim) 2 pi r dr: inside a closed surface all of it, nm^3
+    double height = 0.0;         // largest z - z_rim; of a closed surface: between its highest and lowest point, nm
+    double wall_distance = 0.0;  // to bottom, top and side, the neighbourhood of the rim left out, nm; 0 without walls
 };
 ShapeIntegrals shape_integrals(const MembraneSpace& space, const MembraneState& state, const DomainParameters& domain);
 
 // Energy balance of a state: rate of E along the computed motion against the power given to the fluid, the energy that
 // inflowing membrane brings along and the energy that diffusion of the molecules brings.
 struct EnergyBalance {
+    double energy;           // pN nm
     double energy_rate;       // dE/dt, pN nm/us
     double dissipated_power;  // int f.u dA, pN nm/us
     double diffusive_power;   // dE/dt by diffusion of c, pN nm/us

@@ -1,179 +1,246 @@
 #include "boundary_integral/evolution/stiff_integrator.h"
 
-#include <cvode/cvode.h>
-#include <nvector/nvector_serial.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
-
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <exception>
+#include <string>
+#include <tuple>
 #include <utility>
 
+#include "boundary_integral/flow/dense_solver.h"
 #include "shared/support/error.h"
 
 namespace endoflow::boundary_integral {
 
 namespace {
 
-using Map = Eigen::Map<Eigen::VectorXd>;
+constexpr int highest_order = StepHistory::highest_order;
+constexpr int most_iterations = 5;
+// Errors of the iteration enter the estimate of the step's error: keep them well below it.
+constexpr double iteration_tolerance = 0.01;
+constexpr double negligible_change = 1e-5;  // round-off of a solution at rest may well be larger than nothing
 
-Map view(N_Vector v) {
-    return {N_VGetArrayPointer(v), static_cast<Eigen::Index>(N_VGetLength(v))};
+std::size_t at(int i) {
+    return static_cast<std::size_t>(i);
+}
+
+// Coefficients of the formulas: sum_{j<=k} (1/j) nabla^j y_{n+1} - kappa_k gamma_k (y_{n+1} - predicted) = h F
+struct Formulas {
+    std::array<double, highest_order + 1> gamma{}, alpha{};
+    std::array<double, highest_order + 2> error{};
+
+    Formulas() {
+        constexpr std::array kappa = {0.0, -0.1850, -1.0 / 9.0, -0.0823, -0.0415, 0.0};
+        for (int k = 1; k <= highest_order; ++k) gamma[at(k)] = gamma[at(k - 1)] + 1.0 / k;
+        for (int k = 0; k <= highest_order; ++k) {
+            alpha[at(k)] = (1.0 - kappa[at(k)]) * gamma[at(k)];
+            error[at(k)] = kappa[at(k)] * gamma[at(k)] + 1.0 / (k + 1);
+        }
+    }
+};
+
+const Formulas& formulas() {
+    static const Formulas result;
+    return result;
+}
+
+// Backward differences of the interpolating polynomial's values at steps `factor` times as long, from values.
+Eigen::MatrixXd rescaling(int order, double factor) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(order + 1, order + 1);
+    matrix.row(0).setOnes();
+    for (int i = 1; i <= order; ++i) {
+        for (int j = 1; j <= order; ++j) matrix(i, j) = matrix(i - 1, j) * (i - 1 - factor * j) / i;
+    }
+    return matrix;
+}
+
+std::string microseconds(double time) {
+    return std::to_string(time) + " us";
 }
 
 }  // namespace
 
-struct StiffIntegrator::Implementation {
-    StiffProblem problem;
-    SUNContext context = nullptr;
-    N_Vector y = nullptr;
-    N_Vector scratch = nullptr;
-    N_Vector tolerances = nullptr;
-    SUNMatrix matrix = nullptr;
-    SUNLinearSolver solver = nullptr;
-    void* cvode = nullptr;
-    double time = 0.0;
-    double last_step = 0.0;
-    Eigen::VectorXd state;
-    std::string failure;
+StepHistory StepHistory::start(double time, double step, const Eigen::VectorXd& y, const Eigen::VectorXd& rate) {
+    StepHistory history;
+    history.time = time;
+    history.step = step;
+    history.differences = Eigen::MatrixXd::Zero(y.size(), highest_order + 3);
+    history.differences.col(0) = y;
+    history.differences.col(1) = step * rate;
+    return history;
+}
 
-    ~Implementation() {
-        if (cvode != nullptr) CVodeFree(&cvode);
-        if (solver != nullptr) SUNLinSolFree(solver);
-        if (matrix != nullptr) SUNMatDestroy(matrix);
-        for (N_Vector v : {y, scratch, tolerances}) {
-            if (v != nullptr) N_VDestroy(v);
-        }
-        if (context != nullptr) SUNContext_Free(&context);
+StiffIntegrator::StiffIntegrator(StiffProblem problem, StepHistory history, const StepLimits& limits)
+    : problem_(std::move(problem)), history_(std::move(history)), limits_(limits) {}
+
+void StiffIntegrator::scale_step(double factor) {
+    const int order = history_.order;
+    const Eigen::MatrixXd change = rescaling(order, factor) * rescaling(order, 1.0);
+    history_.differences.leftCols(order + 1) = (history_.differences.leftCols(order + 1) * change).eval();
+    history_.step *= factor;
+    history_.equal_steps = 0;
+}
+
+double StiffIntegrator::norm(const Eigen::VectorXd& difference) const {
+    return difference.cwiseQuotient(problem_.error_scales).norm() / std::sqrt(static_cast<double>(difference.size()));
+}
+
+// Newton's iteration for the difference d:  d - c F(predicted + d) + psi = 0,  c = h/alpha.
+std::optional<StiffIntegrator::Correction> StiffIntegrator::correct(const Eigen::VectorXd& predicted) {
+    const int order = history_.order;
+    const double scale = 1.0 / formulas().alpha[at(order)];
+    const double c = history_.step * scale;
+    Eigen::VectorXd psi = Eigen::VectorXd::Zero(predicted.size());
+    for (int k = 1; k <= order; ++k) psi += scale * formulas().gamma[at(k)] * history_.differences.col(k);
+
+    const auto rate = [&](const Eigen::VectorXd& y) {
+        ++statistics_.rates;
+        Eigen::VectorXd value = problem_.rate(y);
+        if (!value.allFinite()) throw SolverError("not-finite", "the rate of change is not finite", "report this case");
+        return value;
+    };
+    problem_.begin_step(predicted);
+    Correction correction{Eigen::VectorXd::Zero(predicted.size()), 0};
+    Eigen::VectorXd residual = c * rate(predicted) - psi;
+    ++statistics_.jacobians;
+    Eigen::MatrixXd matrix = -c * problem_.jacobian();
+    matrix.diagonal().array() += 1.0;
+    const LuFactors factors(std::move(matrix), "iteration");
+    double before = 0.0;
+    for (int i = 1; i <= most_iterations; ++i) {
+        const Eigen::VectorXd change = factors.solve(residual);
+        correction.difference += change;
+        correction.iterations = i;
+        const double size = norm(change);
+        const double contraction = i > 1 ? size / before : 0.0;
+        if (size < negligible_change) return correction;
+        if (!std::isfinite(size) || contraction >= 1.0) return std::nullopt;
+        // The first change is the whole correction: only a second one tells how fast the iteration converges.
+        if (i > 1 && contraction / (1.0 - contraction) * size < iteration_tolerance) return correction;
+        before = size;
+        residual = c * rate(predicted + correction.difference) - psi - correction.difference;
     }
+    return std::nullopt;
+}
 
-    // Calls `action`; any exception becomes a recoverable failure, so that the integrator tries a smaller step.
-    template <class Action>
-    int guarded(Action action) {
+void StiffIntegrator::advance(double end) {
+    if (history_.step > limits_.largest) scale_step(limits_.largest / history_.step);
+    std::string failure = "the error estimate stays too large";
+    for (;;) {
+        const double left = end - history_.time;
+        if (history_.step > left) {
+            scale_step(left / history_.step);
+        } else if (history_.step < limits_.smallest) {
+            throw SolverError(
+                "step-size-underflow",
+                "no time step is small enough at t = " + microseconds(history_.time) + " (" + failure + ")",
+                "use more elements, or a looser time.tolerance");
+        }
+        std::optional<Correction> correction;
+        const Eigen::VectorXd predicted = history_.differences.leftCols(history_.order + 1).rowwise().sum();
         try {
-            action();
-            return 0;
+            correction = correct(predicted);
+            if (!correction) failure = "Newton's iteration does not converge";
         } catch (const std::exception& error) {
             failure = error.what();
-            return 1;
         }
+        if (!correction) {
+            ++statistics_.convergence_failures;
+            scale_step(0.5);
+            continue;
+        }
+        const double error = norm(correction->difference) * formulas().error[at(history_.order)];
+        if (error <= 1.0) {
+            last_step_ = history_.step;
+            last_order_ = history_.order;
+            const bool last = history_.step * (1.0 + 1e-12) >= left;
+            accept(*correction);
+            if (last) history_.time = end;
+            choose_order_and_step(*correction);
+            return;
+        }
+        ++statistics_.error_test_failures;
+        failure = "the error estimate stays too large";
+        scale_step(std::max(0.2, 0.9 * std::pow(error, -1.0 / (history_.order + 1))));
     }
-
-    static int rate(double t, N_Vector y, N_Vector rate, void* self) {
-        auto& me = *static_cast<Implementation*>(self);
-        return me.guarded([&] {
-            const Eigen::VectorXd value = me.problem.rate(t, view(y));
-            if (!value.allFinite()) throw SolverError("not-finite", "the rate of change is not finite", "");
-            view(rate) = value;
-        });
-    }
-
-    static int jacobian(double t, N_Vector y, N_Vector, SUNMatrix matrix, void* self, N_Vector, N_Vector, N_Vector) {
-        auto& me = *static_cast<Implementation*>(self);
-        return me.guarded([&] {
-            const Eigen::VectorXd at = view(y);
-            Eigen::Map<Eigen::MatrixXd>(SUNDenseMatrix_Data(matrix), at.size(), at.size()) = me.problem.jacobian(t, at);
-        });
-    }
-
-    static int event(double, N_Vector y, double* value, void* self) {
-        auto& me = *static_cast<Implementation*>(self);
-        return me.guarded([&] { value[0] = me.problem.event(view(y)); });
-    }
-
-    static void ignore_message(int, const char*, const char*, char* message, void* self) {
-        auto& me = *static_cast<Implementation*>(self);
-        if (me.failure.empty()) me.failure = message;
-    }
-
-    void check(int flag, const char* what) {
-        if (flag < 0) throw SolverError("time-integration", std::string(what) + " failed", "report this case");
-    }
-};
-
-StiffIntegrator::StiffIntegrator(StiffProblem problem, double time, const Eigen::VectorXd& y, const StepLimits& limits)
-    : implementation_(std::make_unique<Implementation>()) {
-    Implementation& me = *implementation_;
-    me.problem = std::move(problem);
-    me.time = time;
-    me.state = y;
-    me.check(SUNContext_Create(nullptr, &me.context), "SUNContext_Create");
-    const auto size = static_cast<sunindextype>(y.size());
-    me.y = N_VNew_Serial(size, me.context);
-    me.scratch = N_VNew_Serial(size, me.context);
-    me.tolerances = N_VNew_Serial(size, me.context);
-    me.matrix = SUNDenseMatrix(size, size, me.context);
-    view(me.y) = y;
-    view(me.tolerances) = me.problem.error_scales;
-    me.solver = SUNLinSol_Dense(me.y, me.matrix, me.context);
-    me.cvode = CVodeCreate(CV_BDF, me.context);
-    me.check(CVodeInit(me.cvode, &Implementation::rate, time, me.y), "CVodeInit");
-    me.check(CVodeSetUserData(me.cvode, &me), "CVodeSetUserData");
-    me.check(CVodeSetErrHandlerFn(me.cvode, &Implementation::ignore_message, &me), "CVodeSetErrHandlerFn");
-    me.check(CVodeSVtolerances(me.cvode, 0.0, me.tolerances), "CVodeSVtolerances");
-    me.check(CVodeSetLinearSolver(me.cvode, me.solver, me.matrix), "CVodeSetLinearSolver");
-    if (me.problem.jacobian) me.check(CVodeSetJacFn(me.cvode, &Implementation::jacobian), "CVodeSetJacFn");
-    if (me.problem.event) me.check(CVodeRootInit(me.cvode, 1, &Implementation::event), "CVodeRootInit");
-    me.check(CVodeSetNoInactiveRootWarn(me.cvode), "CVodeSetNoInactiveRootWarn");
-    me.check(CVodeSetInitStep(me.cvode, limits.initial), "CVodeSetInitStep");
-    me.check(CVodeSetMaxStep(me.cvode, limits.largest), "CVodeSetMaxStep");
-    me.check(CVodeSetMinStep(me.cvode, limits.smallest), "CVodeSetMinStep");
-    me.check(CVodeSetMaxErrTestFails(me.cvode, 20), "CVodeSetMaxErrTestFails");
-    me.check(CVodeSetMaxConvFails(me.cvode, 40), "CVodeSetMaxConvFails");
-    // A rate costs several Jacobians here, and the Jacobian is approximate: iterate tightly with fresh matrices. Left
-    // at their defaults the iteration errors feed the error estimate and keep the order at 2 (measured: 30 % more
-    // rates).
-    me.check(CVodeSetNonlinConvCoef(me.cvode, 0.01), "CVodeSetNonlinConvCoef");
-    me.check(CVodeSetMaxNonlinIters(me.cvode, 5), "CVodeSetMaxNonlinIters");
-    me.check(CVodeSetLSetupFrequency(me.cvode, 5), "CVodeSetLSetupFrequency");
-    me.check(CVodeSetJacEvalFrequency(me.cvode, 5), "CVodeSetJacEvalFrequency");
 }
 
-StiffIntegrator::~StiffIntegrator() = default;
+void StiffIntegrator::accept(const Correction& correction) {
+    ++statistics_.steps;
+    const int order = history_.order;
+    auto& differences = history_.differences;
+    history_.time += history_.step;
+    ++history_.equal_steps;
+    differences.col(order + 2) = correction.difference - differences.col(order + 1);
+    differences.col(order + 1) = correction.difference;
+    for (int k = order; k >= 0; --k) differences.col(k) += differences.col(k + 1);
+}
 
-StiffIntegrator::Outcome StiffIntegrator::advance(double end) {
-    Implementation& me = *implementation_;
-    me.failure.clear();
-    me.check(CVodeSetStopTime(me.cvode, end), "CVodeSetStopTime");
-    const double before = me.time;
-    const int flag = CVode(me.cvode, end, me.y, &me.time, CV_ONE_STEP);
-    if (flag < 0) {
-        throw SolverError("step-size-underflow",
-                          "no time step is small enough at t = " + std::to_string(me.time) + " us (" + me.failure + ")",
-                          "use more elements, or a looser time.tolerance");
+void StiffIntegrator::choose_order_and_step(const Correction& correction) {
+    const int order = history_.order;
+    if (history_.equal_steps < order + 1) return;
+    const auto factor = [&](int tried, const Eigen::VectorXd& difference) {
+        const double error = formulas().error[at(tried)] * norm(difference);
+        return std::pow(std::max(error, 1e-10), -1.0 / (tried + 1));
+    };
+    int best = order;
+    double largest = factor(order, correction.difference);
+    if (order > 1) {
+        const double lower = factor(order - 1, history_.differences.col(order));
+        if (lower > largest) std::tie(best, largest) = std::pair(order - 1, lower);
     }
-    me.last_step = me.time - before;
-    me.state = view(me.y);
-    if (flag == CV_ROOT_RETURN) return Outcome::event;
-    return flag == CV_TSTOP_RETURN ? Outcome::end : Outcome::step;
-}
-
-double StiffIntegrator::time() const {
-    return implementation_->time;
-}
-double StiffIntegrator::last_step() const {
-    return implementation_->last_step;
-}
-const Eigen::VectorXd& StiffIntegrator::state() const {
-    return implementation_->state;
+    if (order < highest_order) {
+        const double higher = factor(order + 1, history_.differences.col(order + 2));
+        if (higher > largest) std::tie(best, largest) = std::pair(order + 1, higher);
+    }
+    history_.order = best;
+    constexpr double most_growth = 10.0;
+    const double safety =
+        0.9 * (2.0 * most_iterations + 1.0) / (2.0 * most_iterations + static_cast<double>(correction.iterations));
+    scale_step(std::min(most_growth, safety * largest));
 }
 
 Eigen::VectorXd StiffIntegrator::state_at(double time) const {
-    Implementation& me = *implementation_;
-    me.check(CVodeGetDky(me.cvode, time, 0, me.scratch), "CVodeGetDky");
-    return view(me.scratch);
+    // Newton's backward form on the present grid; the polynomial does not depend on the grid's step.
+    Eigen::VectorXd value = history_.differences.col(0);
+    double factor = 1.0;
+    for (int k = 0; k < history_.order; ++k) {
+        factor *= (time - history_.time + k * history_.step) / ((k + 1) * history_.step);
+        value += factor * history_.differences.col(k + 1);
+    }
+    return value;
 }
 
-StiffIntegrator::Statistics StiffIntegrator::statistics() const {
-    Statistics s{};
-    void* cvode = implementation_->cvode;
-    CVodeGetNumSteps(cvode, &s.steps);
-    CVodeGetNumRhsEvals(cvode, &s.rate_evaluations);
-    CVodeGetNumJacEvals(cvode, &s.jacobians);
-    CVodeGetNumErrTestFails(cvode, &s.error_test_failures);
-    CVodeGetNumStepSolveFails(cvode, &s.convergence_failures);
-    CVodeGetLastOrder(cvode, &s.order);
-    return s;
+std::optional<double> StiffIntegrator::falls_below(const std::function<double(const Eigen::VectorXd&)>& quantity,
+                                                   double level) const {
+    double above = history_.time - last_step_;
+    double below = history_.time;
+    double value_above = quantity(state_at(above)) - level;
+    double value_below = quantity(state()) - level;
+    if (value_below > 0.0) return std::nullopt;
+    if (!(value_above > 0.0)) return above;  // it fell below at the very end of the step before
+    // Illinois variant of the false position.
+    int stuck = 0;
+    for (int i = 0; i < 100 && below - above > 1e-14 * (1.0 + history_.time); ++i) {
+        double middle = 0.5 * (above + below);
+        if (std::isfinite(value_above)) {
+            middle = std::clamp(below - value_below * (below - above) / (value_below - value_above), above, below);
+        }
+        const double value = quantity(state_at(middle)) - level;
+        if (value > 0.0) {
+            above = middle;
+            value_above = value;
+            if (stuck == 1) value_below *= 0.5;
+            stuck = 1;
+        } else {
+            below = middle;
+            value_below = value;
+            if (value == 0.0) break;
+            if (stuck == -1) value_above *= 0.5;
+            stuck = -1;
+        }
+    }
+    return below;
 }
 
 }  // namespace endoflow::boundary_integral

@@ -23,13 +23,14 @@ std::vector<double> equidistant(double end, double spacing) {
 
 QuadGrid field_grid(const Parameters& parameters, const MembraneDynamics& dynamics, const Evaluation& evaluation,
                     double spacing) {
+    const BoxFlow& box = *dynamics.box();
     const FlowField field(parameters, dynamics.space(), evaluation.state, evaluation.samples,
-                          {evaluation.flow.velocity, evaluation.flow.force}, dynamics.box().walls(),
-                          dynamics.box().wall_unknowns(evaluation.operators, evaluation.flow));
+                          {evaluation.flow.velocity, evaluation.flow.force}, box.walls(),
+                          box.wall_unknowns(*evaluation.operators, evaluation.flow));
     QuadGrid grid{equidistant(parameters.domain.radius, spacing), equidistant(parameters.domain.height, spacing), {}};
     const std::size_t columns = grid.x.size(), rows = grid.y.size();
     std::vector<double> velocity(3 * columns * rows), pressure(columns * rows), phi(columns * rows);
-    parallel_parts(static_cast<Index>(rows), dynamics.box().threads(), [&](Index begin, Index end) {
+    parallel_parts(static_cast<Index>(rows), box.threads(), [&](Index begin, Index end) {
         for (auto j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end); ++j) {
             for (std::size_t i = 0; i < columns; ++i) {
                 const FieldValue value = field.at({grid.x[i], grid.y[j]}, margin_in_spacings * spacing);

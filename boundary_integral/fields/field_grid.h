@@ -7,7 +7,8 @@
 
 namespace endoflow::boundary_integral {
 
-// Point data "velocity" [nm/us], "pressure" [pN/nm^2], and "phi": 1 extracellular, -1 intracellular. `spacing` in nm.
+// The flow must have been solved in the box. Point data "velocity" [nm/us], "pressure" [pN/nm^2], and "phi": 1
+// extracellular, -1 intracellular. `spacing` in nm.
 QuadGrid field_grid(const Parameters& parameters, const MembraneDynamics& dynamics, const Evaluation& evaluation,
                     double spacing);
 

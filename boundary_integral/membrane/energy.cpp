@@ -11,34 +11,39 @@ namespace {
 // What the energy density depends on at one point.
 enum Variable : std::size_t { var_r, var_r1, var_r2, var_z1, var_z2, var_c, variable_count };
 using EnergyJet = Jet<variable_count>;
+using EnergyGradient = Gradient<variable_count>;
 
+// `Type` is EnergyJet or EnergyGradient.
+template <class Type>
 struct AreaJets {
-    EnergyJet r, r1, r2, z1, z2, g, area;  // area = r g
+    Type r, r1, r2, z1, z2, g, area;  // area = r g
 };
 
-AreaJets area_jets(const CurvePoint& p) {
-    AreaJets jets;
-    jets.r = EnergyJet::variable(p.r, var_r);
-    jets.r1 = EnergyJet::variable(p.r1, var_r1);
-    jets.r2 = EnergyJet::variable(p.r2, var_r2);
-    jets.z1 = EnergyJet::variable(p.z1, var_z1);
-    jets.z2 = EnergyJet::variable(p.z2, var_z2);
+template <class Type>
+AreaJets<Type> area_jets(const CurvePoint& p) {
+    AreaJets<Type> jets;
+    jets.r = Type::variable(p.r, var_r);
+    jets.r1 = Type::variable(p.r1, var_r1);
+    jets.r2 = Type::variable(p.r2, var_r2);
+    jets.z1 = Type::variable(p.z1, var_z1);
+    jets.z2 = Type::variable(p.z2, var_z2);
     jets.g = sqrt(jets.r1 * jets.r1 + jets.z1 * jets.z1);
     jets.area = jets.r * jets.g;
     return jets;
 }
 
 // 1/2 beta(c) (kappa - C(c))^2 r g, with (kappa - C) r g = -r (r' z'' - z' r'')/g^2 - z' - C r g
-EnergyJet energy_density(const AreaJets& jets, double c, const BendingModel& model) {
-    const EnergyJet concentration = EnergyJet::variable(c, var_c);
+template <class Type>
+Type energy_density(const AreaJets<Type>& jets, double c, const BendingModel& model) {
+    const Type concentration = Type::variable(c, var_c);
     const ValueAndDerivatives beta = model.stiffness(c);
     const ValueAndDerivatives spontaneous = model.spontaneous_curvature(c);
-    const EnergyJet beta_jet = chain(concentration, beta.value, beta.first, beta.second);
-    const EnergyJet spontaneous_jet = chain(concentration, spontaneous.value, spontaneous.first, spontaneous.second);
-    const EnergyJet cross = jets.r1 * jets.z2 - jets.z1 * jets.r2;
-    const EnergyJet excess =
-        EnergyJet::constant(0.0) - jets.r * cross * reciprocal(jets.g * jets.g) - jets.z1 - spontaneous_jet * jets.area;
-    const EnergyJet twice = beta_jet * excess * excess * reciprocal(jets.area);
+    const Type stiffness = chain(concentration, beta.value, beta.first, beta.second);
+    const Type curvature = chain(concentration, spontaneous.value, spontaneous.first, spontaneous.second);
+    const Type cross = jets.r1 * jets.z2 - jets.z1 * jets.r2;
+    const Type excess =
+        Type::constant(0.0) - jets.r * cross * reciprocal(jets.g * jets.g) - jets.z1 - curvature * jets.area;
+    const Type twice = stiffness * excess * excess * reciprocal(jets.area);
     return combine(0.5, twice, 0.0, twice);
 }
 
@@ -89,6 +94,16 @@ void add_second_derivatives(const EnergyJet& jet, double weight, const LocalSlot
     }
 }
 
+// One Gauss point's part of energy and gradients.
+template <class Type>
+void add_first_derivatives(const Type& density, double weight, const LocalSlots& slots, EnergyDerivatives& result) {
+    result.energy += weight * density.value;
+    for (const Slot& row : slots.curve) result.gradient[row.row] += weight * dot(density.gradient, row.partial);
+    for (const Slot& row : slots.concentration) {
+        result.gradient_c[row.row] += weight * dot(density.gradient, row.partial);
+    }
+}
+
 }  // namespace
 
 EnergyDerivatives bending_energy(const MembraneSpace& space, const MembraneState& state, const BendingModel& model,
@@ -103,19 +118,17 @@ EnergyDerivatives bending_energy(const MembraneSpace& space, const MembraneState
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
         const CurvePoint p = curve_point(space.radial_rows[i], space.axial_rows[i], state);
         const double c = space.axial_rows[i].evaluate(state.c, 0);
-        const AreaJets jets = area_jets(p);
-        EnergyJet density = energy_density(jets, c, model);
         const LocalSlots slots = local_slots(space.radial_rows[i], space.axial_rows[i], space.radial_count());
         const double weight = space.weight[i];
-        result.energy += weight * density.value;
-        for (const Slot& row : slots.curve) result.gradient[row.row] += weight * dot(density.gradient, row.partial);
-        for (const Slot& row : slots.concentration) {
-            result.gradient_c[row.row] += weight * dot(density.gradient, row.partial);
+        if (wanted == Derivatives::first) {
+            add_first_derivatives(energy_density(area_jets<EnergyGradient>(p), c, model), weight, slots, result);
+            continue;
         }
-        if (wanted == Derivatives::second) {
-            if (!tension.empty()) density = combine(1.0, density, tension[i], jets.area);
-            add_second_derivatives(density, weight, slots, result);
-        }
+        const AreaJets jets = area_jets<EnergyJet>(p);
+        EnergyJet density = energy_density(jets, c, model);
+        add_first_derivatives(density, weight, slots, result);
+        if (!tension.empty()) density = combine(1.0, density, tension[i], jets.area);
+        add_second_derivatives(density, weight, slots, result);
     }
     return result;
 }
@@ -151,7 +164,7 @@ Eigen::MatrixXd divergence_variation(const MembraneSpace& space, const MembraneS
     const Eigen::VectorXd u_r = velocity.head(space.radial_count());
     const Eigen::VectorXd u_z = velocity.tail(space.axial_count());
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
-        const AreaJets jets = area_jets(samples.curve[i]);
+        const AreaJets jets = area_jets<EnergyJet>(samples.curve[i]);
         const LocalSlots slots = local_slots(space.radial_rows[i], space.axial_rows[i], space.radial_count());
         const std::array<double, variable_count> direction = {space.radial_rows[i].evaluate(u_r, 0),
                                                               space.radial_rows[i].evaluate(u_r, 1),

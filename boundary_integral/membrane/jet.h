@@ -1,6 +1,6 @@
 #pragma once
 
-// Second-order forward differentiation: a value with its gradient and Hessian in N variables.
+// Forward differentiation in N variables: a value with its gradient (Gradient) and also its Hessian (Jet).
 
 #include <array>
 #include <cmath>
@@ -53,16 +53,6 @@ Jet<N> combine(double alpha, const Jet<N>& x, double beta, const Jet<N>& y) {
 }
 
 template <std::size_t N>
-Jet<N> operator+(const Jet<N>& x, const Jet<N>& y) {
-    return combine(1.0, x, 1.0, y);
-}
-
-template <std::size_t N>
-Jet<N> operator-(const Jet<N>& x, const Jet<N>& y) {
-    return combine(1.0, x, -1.0, y);
-}
-
-template <std::size_t N>
 Jet<N> operator*(const Jet<N>& x, const Jet<N>& y) {
     Jet<N> product;
     product.value = x.value * y.value;
@@ -77,13 +67,65 @@ Jet<N> operator*(const Jet<N>& x, const Jet<N>& y) {
 }
 
 template <std::size_t N>
-Jet<N> reciprocal(const Jet<N>& x) {
+struct Gradient {
+    double value = 0.0;
+    std::array<double, N> gradient{};
+
+    static Gradient constant(double v) {
+        Gradient result;
+        result.value = v;
+        return result;
+    }
+    static Gradient variable(double v, std::size_t which) {
+        Gradient result = constant(v);
+        result.gradient[which] = 1.0;
+        return result;
+    }
+};
+
+template <std::size_t N>
+Gradient<N> chain(const Gradient<N>& x, double f, double first, double /*second*/) {
+    Gradient<N> y;
+    y.value = f;
+    for (std::size_t i = 0; i < N; ++i) y.gradient[i] = first * x.gradient[i];
+    return y;
+}
+
+template <std::size_t N>
+Gradient<N> combine(double alpha, const Gradient<N>& x, double beta, const Gradient<N>& y) {
+    Gradient<N> sum;
+    sum.value = alpha * x.value + beta * y.value;
+    for (std::size_t i = 0; i < N; ++i) sum.gradient[i] = alpha * x.gradient[i] + beta * y.gradient[i];
+    return sum;
+}
+
+template <std::size_t N>
+Gradient<N> operator*(const Gradient<N>& x, const Gradient<N>& y) {
+    Gradient<N> product;
+    product.value = x.value * y.value;
+    for (std::size_t i = 0; i < N; ++i) product.gradient[i] = x.value * y.gradient[i] + y.value * x.gradient[i];
+    return product;
+}
+
+// For either of the two.
+template <template <std::size_t> class Type, std::size_t N>
+Type<N> operator+(const Type<N>& x, const Type<N>& y) {
+    return combine(1.0, x, 1.0, y);
+}
+
+template <template <std::size_t> class Type, std::size_t N>
+Type<N> operator-(const Type<N>& x, const Type<N>& y) {
+    return combine(1.0, x, -1.0, y);
+}
+
+template <template <std::size_t> class Type, std::size_t N>
+Type<N> reciprocal(const Type<N>& x) {
     const double inverse = 1.0 / x.value;
     return chain(x, inverse, -inverse * inverse, 2.0 * inverse * inverse * inverse);
 }
 
-template <std::size_t N>
-Jet<N> sqrt(const Jet<N>& x) {
+template <template <std::size_t> class Type, std::size_t N>
+Type<N> sqrt(const Type<N>& x) {
     const double root = std::sqrt(x.value);
     return chain(x, root, 0.5 / root, -0.25 / (root * x.value));
 }

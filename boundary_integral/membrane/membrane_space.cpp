@@ -14,15 +14,21 @@ std::vector<double> without_last_two_inner(Index elements) {
     return points;
 }
 
+RightEnd right_end(CurveEnd end) {
+    return end == CurveEnd::clamped ? RightEnd::free : RightEnd::mirrored;
+}
+
 }  // namespace
 
-MembraneSpace::MembraneSpace(Index elements, int gauss_points)
-    : elements_(elements),
+MembraneSpace::MembraneSpace(Index elements, int gauss_points, CurveEnd end)
+    : end_(end),
+      elements_(elements),
       points_per_element_(gauss_points),
-      radial_(curve_degree, uniform_breakpoints(elements), Parity::odd),
-      axial_(curve_degree, uniform_breakpoints(elements), Parity::even),
-      force_(curve_degree, without_last_two_inner(elements), Parity::even),
-      tension_(curve_degree - 1, uniform_breakpoints(elements), Parity::even) {
+      radial_(curve_degree, uniform_breakpoints(elements), Parity::odd, right_end(end)),
+      axial_(curve_degree, uniform_breakpoints(elements), Parity::even, right_end(end)),
+      force_(curve_degree, end == CurveEnd::clamped ? without_last_two_inner(elements) : uniform_breakpoints(elements),
+             Parity::even, right_end(end)),
+      tension_(curve_degree - 1, uniform_breakpoints(elements), Parity::even, right_end(end)) {
     const QuadratureRule rule = gauss_legendre(gauss_points);
     const double width = element_width();
     for (Index e = 0; e < elements; ++e) {
@@ -36,12 +42,13 @@ MembraneSpace::MembraneSpace(Index elements, int gauss_points)
             tension_rows.push_back(tension_.basis(point, e));
         }
     }
+    radial_targets = radial_.greville_points();
+    axial_targets = axial_.greville_points();
+    if (end_ == CurveEnd::closed) return;
     // u_r = 0 on the axis by parity, and the rim itself is an edge of both fluids: stay a twentieth of an element away
     // from it.
-    radial_targets = radial_.greville_points();
     radial_targets.back() = 1.0 - 0.05 * width;
     // Height and slope are prescribed at the rim: the two last axial equations give way to them.
-    axial_targets = axial_.greville_points();
     axial_targets.resize(axial_targets.size() - 2);
 }
 
@@ -72,7 +79,7 @@ MembraneSamples sample(const MembraneSpace& space, const MembraneState& state) {
         samples.c1[i] = space.axial_rows[i].evaluate(state.c, 1);
         samples.c2[i] = space.axial_rows[i].evaluate(state.c, 2);
     }
-    samples.rim_radius = space.radial().basis(1.0).evaluate(state.r, 0);
+    samples.rim_radius = space.end() == CurveEnd::clamped ? space.radial().basis(1.0).evaluate(state.r, 0) : 0.0;
     return samples;
 }
 

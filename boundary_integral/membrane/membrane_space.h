@@ -11,17 +11,25 @@
 
 namespace endoflow::boundary_integral {
 
-// xi in [0, 1] runs from the axis to the rim.
+// Where the curve ends: at a rim of given place and slope, or on the axis again.
+enum class CurveEnd { clamped, closed };
+
+// xi in [0, 1] runs from the axis to the rim, or from the upper pole of a closed surface to the lower.
 //   radial   quintic, odd:  r, u_r, f_r
 //   axial    quintic, even: z, u_z, c
 //   force    quintic, even, without the two breakpoints next to the rim: f_z. Two functions fewer than `axial`, as many
 //   as the
 //            clamped velocities (height and slope prescribed at the rim) have freedoms.
 //   tension  quartic, even: lambda; holds the derivatives of `radial`
+// On a closed surface all of them are mirrored at both ends, and `force` is `axial`.
 class MembraneSpace {
   public:
-    MembraneSpace(Index elements, int gauss_points);
+    MembraneSpace(Index elements, int gauss_points, CurveEnd end = CurveEnd::clamped);
 
+    CurveEnd end() const { return end_; }
+    // Coefficients that stay: the rim's radius; its height and slope.
+    Index fixed_radial() const { return end_ == CurveEnd::clamped ? 1 : 0; }
+    Index fixed_axial() const { return end_ == CurveEnd::clamped ? 2 : 0; }
     Index elements() const { return elements_; }
     double element_width() const { return 1.0 / static_cast<double>(elements_); }
     const SplineSpace& radial() const { return radial_; }
@@ -44,6 +52,7 @@ class MembraneSpace {
     std::vector<double> radial_targets, axial_targets;
 
   private:
+    CurveEnd end_;
     Index elements_;
     Index points_per_element_;
     SplineSpace radial_, axial_, force_, tension_;
@@ -72,7 +81,7 @@ CurvePoint curve_point(const BasisRow& radial, const BasisRow& axial, const Memb
 struct MembraneSamples {
     std::vector<CurvePoint> curve;
     std::vector<double> c, c1, c2;
-    double rim_radius = 0.0;  // nm
+    double rim_radius = 0.0;  // nm; 0 on a closed surface
 };
 MembraneSamples sample(const MembraneSpace& space, const MembraneState& state);
 

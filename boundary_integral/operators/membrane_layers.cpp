@@ -15,181 +15,212 @@ std::size_t at(Index i) {
     return static_cast<std::size_t>(i);
 }
 
-// Quadrature points of one target outside the tabulated ones.
-struct ExtraPoints {
-    RingSources sources;
-    std::vector<double> measure;  // weight r g dxi
-    std::vector<BasisRow> radial, axial, force;
+double squared_distance(const CurvePoint& p, const Target& target) {
+    const double dr = p.r - target.r;
+    const double dz = p.z - target.z;
+    return dr * dr + dz * dz;
+}
 
-    void clear() {
-        sources.resize(0);
-        measure.clear();
-        radial.clear();
-        axial.clear();
-        force.clear();
+// What all targets share.
+struct Sources {
+    const MembraneSpace& space;
+    const MembraneState& state;
+    const MembraneSamples& samples;
+    ElementBasis basis;           // at the Gauss points
+    std::vector<double> measure;  // weight r g at the Gauss points
+    std::vector<double> lengths;  // of the elements, nm
+    QuadratureRule singular_rule, near_rule;
+    double near_distance;
+
+    Sources(const MembraneSpace& membrane_space, const MembraneState& membrane_state,
+            const MembraneSamples& membrane_samples, const LayerQuadrature& quadrature)
+        : space(membrane_space),
+          state(membrane_state),
+          samples(membrane_samples),
+          lengths(at(membrane_space.elements()), 0.0),
+          singular_rule(gauss_legendre(quadrature.singular_points)),
+          near_rule(gauss_legendre(quadrature.near_points)),
+          near_distance(quadrature.near_distance) {
+        const std::size_t points = at(space.points_per_element());
+        for (std::size_t i = 0; i < samples.curve.size(); ++i) {
+            const CurvePoint& p = samples.curve[i];
+            basis.add(space.radial_rows[i], space.axial_rows[i], space.force_rows[i], i % points == 0);
+            measure.push_back(space.weight[i] * p.r * p.g);
+            lengths[i / points] += space.weight[i] * p.g;
+        }
     }
 };
 
 class Builder {
   public:
-    Builder(const MembraneSpace& space, const MembraneState& state, const MembraneSamples& samples,
-            const LayerQuadrature& quadrature, MembraneLayers& layers)
-        : space_(space),
-          state_(state),
-          samples_(samples),
-          near_distance_(quadrature.near_distance),
-          singular_rule_(gauss_legendre(quadrature.singular_points)),
-          near_rule_(gauss_legendre(quadrature.near_points)),
-          layers_(layers) {
-        table_.resize(samples.curve.size());
-        for (std::size_t i = 0; i < samples.curve.size(); ++i) {
-            table_.radius[i] = samples.curve[i].r;
-            table_.normal_r[i] = samples.curve[i].normal_r;
+    Builder(const Sources& sources, MembraneLayers& layers)
+        : sources_(sources), layers_(layers), measure_(sources.measure) {
+        const auto& curve = sources.samples.curve;
+        table_.resize(curve.size());
+        for (std::size_t i = 0; i < curve.size(); ++i) {
+            table_.radius[i] = curve[i].r;
+            table_.normal_r[i] = curve[i].normal_r;
         }
     }
 
     void add(const MembraneTarget& target) {
-        extra_.clear();
         set_differences(target.at);
-        measure_.resize(samples_.curve.size());
-        for (Index e = 0; e < space_.elements(); ++e) treat_element(target, e);
+        measure_ = sources_.measure;
+        if (target.xi >= 0.0) {
+            if (target.own != nullptr) {
+                add_own_elements(target, *target.own);
+            } else {
+                add_own_elements(target, own_elements(sources_.space, target.xi, sources_.singular_rule));
+            }
+        }
+        for (Index e = 0; e < sources_.space.elements(); ++e) treat_element(target, e);
         evaluate_ring_kernels(target.at.r, table_, kernels_);
-        for (std::size_t i = 0; i < measure_.size(); ++i) {
-            if (measure_[i] == 0.0) continue;
-            deposit(target.rows, i, measure_[i], space_.radial_rows[i], space_.axial_rows[i], space_.force_rows[i]);
-        }
-        evaluate_ring_kernels(target.at.r, extra_.sources, kernels_);
-        for (std::size_t i = 0; i < extra_.measure.size(); ++i) {
-            deposit(target.rows, i, extra_.measure[i], extra_.radial[i], extra_.axial[i], extra_.force[i]);
-        }
+        deposit(target.rows, at(sources_.space.elements()), measure_, sources_.basis);
     }
 
   private:
-    const MembraneSpace& space_;
-    const MembraneState& state_;
-    const MembraneSamples& samples_;
-    double near_distance_;
-    QuadratureRule singular_rule_, near_rule_;
+    const Sources& sources_;
     MembraneLayers& layers_;
-    RingSources table_;
+    RingSources table_;            // the Gauss points
+    std::vector<double> measure_;  // theirs; 0 in elements that another rule integrates
+    RingSources extra_;            // points of another rule
+    std::vector<double> extra_measure_;
+    ElementBasis extra_basis_;
     RingKernels kernels_;
-    ExtraPoints extra_;
-    std::vector<double> measure_;
+    std::vector<double> first_sums_, second_sums_;
 
     void set_differences(const Target& target) {
-        for (std::size_t i = 0; i < samples_.curve.size(); ++i) {
-            const CurvePoint& p = samples_.curve[i];
+        for (std::size_t i = 0; i < sources_.samples.curve.size(); ++i) {
+            const CurvePoint& p = sources_.samples.curve[i];
             table_.delta_r[i] = p.r - target.r;
             table_.delta_z[i] = p.z - target.z;
             table_.normal_offset[i] = p.normal_r * table_.delta_r[i] + p.normal_z * table_.delta_z[i];
         }
     }
 
-    void treat_element(const MembraneTarget& target, Index element) {
-        const std::size_t first = at(element * space_.points_per_element());
-        const std::size_t last = first + at(space_.points_per_element());
-        const double width = space_.element_width();
-        const double begin = static_cast<double>(element) * width;
-        const double end = begin + width;
-        constexpr double slack = 1e-12;
-        if (target.xi >= begin - slack && target.xi <= end + slack) {
-            add_own_element(target, element, begin, end);
-            std::fill(measure_.begin() + static_cast<std::ptrdiff_t>(first),
-                      measure_.begin() + static_cast<std::ptrdiff_t>(last), 0.0);
-            return;
+    std::size_t first_point(Index element) const { return at(element * sources_.space.points_per_element()); }
+
+    void leave_out(Index element) {
+        for (std::size_t i = first_point(element); i < first_point(element + 1); ++i) {
+            measure_[i] = 0.0;
+            table_.delta_r[i] = 1.0;  // the target may be this very point, and 0 times its kernels is not 0
         }
+    }
+
+    void treat_element(const MembraneTarget& target, Index element) {
+        const std::size_t first = first_point(element), last = first_point(element + 1);
+        if (measure_[first] == 0.0) return;  // the target's own
         double closest = 1e300;
-        double length = 0.0;
         std::size_t closest_point = first;
         for (std::size_t i = first; i < last; ++i) {
-            const double distance = std::hypot(table_.delta_r[i], table_.delta_z[i]);
+            const double distance = squared_distance(sources_.samples.curve[i], target.at);
             if (distance < closest) {
                 closest = distance;
                 closest_point = i;
             }
-            length += space_.weight[i] * samples_.curve[i].g;
         }
-        if (closest < near_distance_ * length) {
-            add_near_element(target, element, begin, end, space_.xi[closest_point]);
-            std::fill(measure_.begin() + static_cast<std::ptrdiff_t>(first),
-                      measure_.begin() + static_cast<std::ptrdiff_t>(last), 0.0);
-        } else {
-            for (std::size_t i = first; i < last; ++i) {
-                measure_[i] = space_.weight[i] * samples_.curve[i].r * samples_.curve[i].g;
-            }
-        }
+        const double near = sources_.near_distance * sources_.lengths[at(element)];
+        if (closest >= near * near) return;
+        add_near_element(target, element, sources_.space.xi[closest_point]);
+        leave_out(element);
     }
 
-    void push(double xi, Index element, double delta_r, double delta_z, double cross, double weight) {
-        const BasisRow radial = space_.radial().basis(xi, element);
-        const BasisRow axial = space_.axial().basis(xi, element);
-        const CurvePoint p = curve_point(radial, axial, state_);
-        RingSources& s = extra_.sources;
-        s.radius.push_back(p.r);
-        s.delta_r.push_back(delta_r);
-        s.delta_z.push_back(delta_z);
-        s.normal_r.push_back(p.normal_r);
-        s.normal_offset.push_back(cross / p.g);
-        extra_.measure.push_back(weight * p.r * p.g);
-        extra_.radial.push_back(radial);
-        extra_.axial.push_back(axial);
-        extra_.force.push_back(space_.force().basis(xi));
+    void start_extra() {
+        extra_.resize(0);
+        extra_measure_.clear();
     }
 
-    // The target lies in this element: differences from the Taylor polynomial about it, so that x - x0 and n.(x - x0)
+    void push(const CurvePoint& p, double delta_r, double delta_z, double cross, double weight) {
+        extra_.radius.push_back(p.r);
+        extra_.delta_r.push_back(delta_r);
+        extra_.delta_z.push_back(delta_z);
+        extra_.normal_r.push_back(p.normal_r);
+        extra_.normal_offset.push_back(cross / p.g);
+        extra_measure_.push_back(weight * p.r * p.g);
+    }
+
+    void finish_extra(const MembraneTarget& target, const ElementBasis& basis) {
+        evaluate_ring_kernels(target.at.r, extra_, kernels_);
+        deposit(target.rows, 1, extra_measure_, basis);
+    }
+
+    // The target lies in these elements: differences from the Taylor polynomial about it, so that x - x0 and n.(x - x0)
     // keep their relative accuracy however close the two points are.
-    void add_own_element(const MembraneTarget& target, Index element, double begin, double end) {
-        const OffsetRule rule = logarithmic_rule(begin, end, target.xi, singular_rule_);
-        const auto r = space_.radial().taylor(state_.r, rule.origin, element);
-        const auto z = space_.axial().taylor(state_.z, rule.origin, element);
-        for (std::size_t i = 0; i < rule.offsets.size(); ++i) {
-            const double t = rule.offsets[i];
-            // x - x0 = t (x' + t p),  x'(t) = x' + t q
-            const auto p = [t](const std::array<double, 6>& d) {
-                return d[2] / 2 + t * (d[3] / 6 + t * (d[4] / 24 + t * d[5] / 120));
-            };
-            const auto q = [t](const std::array<double, 6>& d) {
-                return d[2] + t * (d[3] / 2 + t * (d[4] / 6 + t * d[5] / 24));
-            };
-            const double p_r = p(r), p_z = p(z), q_r = q(r), q_z = q(z);
-            // g n.(x - x0) = r'(z - z0) - z'(r - r0) = t^2 [ x' x p + q x x' + t q x p ]
-            const double cross =
-                t * t * ((r[1] * p_z - z[1] * p_r) + (q_r * z[1] - q_z * r[1]) + t * (q_r * p_z - q_z * p_r));
-            push(rule.origin + t, element, t * (r[1] + t * p_r), t * (z[1] + t * p_z), cross, rule.weights[i]);
+    void add_own_elements(const MembraneTarget& target, const OwnElements& elements) {
+        for (const OwnElement& own : elements) {
+            start_extra();
+            const auto r = sources_.space.radial().taylor(sources_.state.r, own.rule.origin, own.element);
+            const auto z = sources_.space.axial().taylor(sources_.state.z, own.rule.origin, own.element);
+            for (std::size_t i = 0; i < own.rule.offsets.size(); ++i) {
+                const double t = own.rule.offsets[i];
+                // x - x0 = t (x' + t p),  x'(t) = x' + t q
+                const auto p = [t](const std::array<double, 6>& d) {
+                    return d[2] / 2 + t * (d[3] / 6 + t * (d[4] / 24 + t * d[5] / 120));
+                };
+                const auto q = [t](const std::array<double, 6>& d) {
+                    return d[2] + t * (d[3] / 2 + t * (d[4] / 6 + t * d[5] / 24));
+                };
+                const double p_r = p(r), p_z = p(z), q_r = q(r), q_z = q(z);
+                // g n.(x - x0) = r'(z - z0) - z'(r - r0) = t^2 [ x' x p + q x x' + t q x p ]
+                const double cross =
+                    t * t * ((r[1] * p_z - z[1] * p_r) + (q_r * z[1] - q_z * r[1]) + t * (q_r * p_z - q_z * p_r));
+                push(curve_point(own.radial_rows[i], own.axial_rows[i], sources_.state), t * (r[1] + t * p_r),
+                     t * (z[1] + t * p_z), cross, own.rule.weights[i]);
+            }
+            finish_extra(target, own.basis);
+            leave_out(own.element);
         }
     }
 
-    void add_near_element(const MembraneTarget& target, Index element, double begin, double end, double guess) {
-        const auto [closest, p] = closest_on_element(space_, state_, element, target.at, guess);
-        const double distance = std::hypot(p.r - target.at.r, p.z - target.at.z);
-        const OffsetRule rule = near_singular_rule(begin, end, closest, std::max(distance, 1e-14) / p.g, near_rule_);
+    void add_near_element(const MembraneTarget& target, Index element, double guess) {
+        const MembraneSpace& space = sources_.space;
+        const double begin = static_cast<double>(element) * space.element_width();
+        const auto [closest, p] = closest_on_element(space, sources_.state, element, target.at, guess);
+        const double distance = std::sqrt(squared_distance(p, target.at));
+        const OffsetRule rule = near_singular_rule(begin, begin + space.element_width(), closest,
+                                                   std::max(distance, 1e-14) / p.g, sources_.near_rule);
+        start_extra();
+        extra_basis_.clear();
         for (std::size_t i = 0; i < rule.offsets.size(); ++i) {
             const double xi = rule.origin + rule.offsets[i];
-            const BasisRow radial = space_.radial().basis(xi, element);
-            const BasisRow axial = space_.axial().basis(xi, element);
-            const CurvePoint x = curve_point(radial, axial, state_);
+            const BasisRow radial = space.radial().basis(xi, element);
+            const BasisRow axial = space.axial().basis(xi, element);
+            extra_basis_.add(radial, axial, space.force().basis(xi), i == 0);
+            const CurvePoint x = curve_point(radial, axial, sources_.state);
             const double dr = x.r - target.at.r;
             const double dz = x.z - target.at.z;
-            push(xi, element, dr, dz, x.r1 * dz - x.z1 * dr, rule.weights[i]);
+            push(x, dr, dz, x.r1 * dz - x.z1 * dr, rule.weights[i]);
         }
+        finish_extra(target, extra_basis_);
     }
 
-    void deposit(const TargetRows& rows, std::size_t i, double measure, const BasisRow& radial, const BasisRow& axial,
-                 const BasisRow& force) {
-        const Index offset = space_.radial_count();
-        const auto into = [&](Index row, double g_r, double g_z, double t_r, double t_z) {
-            if (row < 0) return;
-            double* single = layers_.single.row(row).data();
-            double* doubled = layers_.doubled.row(row).data();
-            for (std::size_t j = 0; j < 6; ++j) {
-                single[radial.index[j]] += measure * g_r * radial.value[0][j];
-                single[offset + force.index[j]] += measure * g_z * force.value[0][j];
-                doubled[radial.index[j]] += measure * t_r * radial.value[0][j];
-                doubled[offset + axial.index[j]] += measure * t_z * axial.value[0][j];
+    // Adds the kernels at all points of `elements` elements to the target's rows.
+    void deposit(const TargetRows& rows, std::size_t elements, const std::vector<double>& measure,
+                 const ElementBasis& basis) {
+        const std::size_t points = measure.size() / elements;
+        first_sums_.resize(basis_stride * elements);
+        second_sums_.resize(basis_stride * elements);
+        const Index offset = sources_.space.radial_count();
+        const auto begin = [](RowMatrix& matrix, Index row, Index first_column) {
+            return row < 0 ? nullptr : matrix.row(row).data() + first_column;
+        };
+        const auto into = [&](const BasisTable& table, const std::vector<double>& first,
+                              const std::vector<double>& second, double* first_row, double* second_row) {
+            point_sums(elements, points, table.values(), measure.data(), first.data(), second.data(),
+                       first_sums_.data(), second_sums_.data());
+            for (std::size_t e = 0; e < elements; ++e) {
+                if (first_row != nullptr) table.scatter(e, &first_sums_[basis_stride * e], first_row);
+                if (second_row != nullptr) table.scatter(e, &second_sums_[basis_stride * e], second_row);
             }
         };
-        into(rows.radial, kernels_.g_rr[i], kernels_.g_rz[i], kernels_.t_rr[i], kernels_.t_rz[i]);
-        into(rows.axial, kernels_.g_zr[i], kernels_.g_zz[i], kernels_.t_zr[i], kernels_.t_zz[i]);
+        RowMatrix& single = layers_.single;
+        RowMatrix& doubled = layers_.doubled;
+        into(basis.radial, kernels_.g_rr, kernels_.g_zr, begin(single, rows.radial, 0), begin(single, rows.axial, 0));
+        into(basis.radial, kernels_.t_rr, kernels_.t_zr, begin(doubled, rows.radial, 0), begin(doubled, rows.axial, 0));
+        into(basis.force, kernels_.g_rz, kernels_.g_zz, begin(single, rows.radial, offset),
+             begin(single, rows.axial, offset));
+        into(basis.axial, kernels_.t_rz, kernels_.t_zz, begin(doubled, rows.radial, offset),
+             begin(doubled, rows.axial, offset));
     }
 };
 
@@ -199,9 +230,10 @@ MembraneLayers membrane_layers(const MembraneSpace& space, const MembraneState& 
                                const std::vector<MembraneTarget>& targets, Index rows,
                                const LayerQuadrature& quadrature) {
     MembraneLayers layers{RowMatrix::Zero(rows, space.force_count()), RowMatrix::Zero(rows, space.curve_count())};
+    const Sources sources(space, state, samples, quadrature);
     // Every target owns its rows.
     parallel_parts(static_cast<Index>(targets.size()), quadrature.threads, [&](Index begin, Index end) {
-        Builder builder(space, state, samples, quadrature, layers);
+        Builder builder(sources, layers);
         for (Index i = begin; i < end; ++i) builder.add(targets[at(i)]);
     });
     return layers;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "boundary_integral/membrane/membrane_space.h"
+#include "boundary_integral/operators/element_basis.h"
 #include "boundary_integral/operators/layer_block.h"
 
 namespace endoflow::boundary_integral {
@@ -13,7 +14,8 @@ namespace endoflow::boundary_integral {
 struct MembraneTarget {
     Target at;
     TargetRows rows;
-    double xi = -1.0;  // parameter when the target lies on the membrane, -1 otherwise
+    double xi = -1.0;                  // parameter when the target lies on the membrane, -1 otherwise
+    const OwnElements* own = nullptr;  // own_elements of xi, when they are at hand
 };
 
 struct MembraneLayers {
@@ -23,7 +25,7 @@ struct MembraneLayers {
 
 struct LayerQuadrature {
     int threads = 1;
-    int singular_points = 24;    // per side of the target, its own element
+    int singular_points = 24;    // per side of the target, its own element (unless the target brings its rule)
     int near_points = 20;        // per side of the closest point, near elements
     double near_distance = 1.0;  // in element lengths
 };

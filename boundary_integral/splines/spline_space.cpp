@@ -11,31 +11,37 @@ std::size_t at(Index i) {
 }
 }  // namespace
 
-SplineSpace::SplineSpace(int degree, std::vector<double> breakpoints, Parity parity)
-    : degree_(degree), parity_(parity), breakpoints_(std::move(breakpoints)) {
+SplineSpace::SplineSpace(int degree, std::vector<double> breakpoints, Parity parity, RightEnd right_end)
+    : degree_(degree), parity_(parity), right_end_(right_end), breakpoints_(std::move(breakpoints)) {
+    const std::size_t last = breakpoints_.size() - 1;
     const double first_interval = breakpoints_[1] - breakpoints_[0];
+    const double beyond = right_end_ == RightEnd::mirrored ? breakpoints_[last] - breakpoints_[last - 1] : 0.0;
     for (int i = degree_; i >= 1; --i) knots_.push_back(-i * first_interval);
     knots_.insert(knots_.end(), breakpoints_.begin(), breakpoints_.end());
-    for (int i = 0; i < degree_; ++i) knots_.push_back(breakpoints_.back());
-    const Index raw_count = static_cast<Index>(knots_.size()) - degree_ - 1;
-    for (Index raw = 0; raw < raw_count; ++raw) {
+    for (int i = 1; i <= degree_; ++i) knots_.push_back(breakpoints_.back() + i * beyond);
+    for (Index raw = 0; raw < raw_count(); ++raw) {
         Index folded = 0;
         if (fold(raw, folded) != 0.0) dimension_ = std::max(dimension_, folded + 1);
     }
 }
 
-// Raw function i is mirrored about the axis into p - 1 - i.
+// Raw function i is mirrored about the axis into p - 1 - i, and likewise about a mirrored end.
 double SplineSpace::fold(Index raw, Index& folded) const {
-    const Index mirror = degree_ - 1 - raw;
+    const double sign_of_mirror = parity_ == Parity::odd ? -1.0 : 1.0;
     const bool odd_degree = degree_ % 2 == 1;
     const Index centre = degree_ / 2;  // p odd: index centred on the axis; p even: first one right of it
-    if (odd_degree && raw == mirror) {
-        folded = 0;
-        return parity_ == Parity::even ? 1.0 : 0.0;
-    }
-    const Index right = std::max(raw, mirror);
-    folded = right - centre - ((odd_degree && parity_ == Parity::odd) ? 1 : 0);
-    return (raw < mirror && parity_ == Parity::odd) ? -1.0 : 1.0;
+    double sign = 1.0;
+    const auto mirror = [&](Index image, bool outside) {
+        if (raw == image && parity_ == Parity::odd) sign = 0.0;
+        if (outside) {
+            raw = image;
+            sign *= sign_of_mirror;
+        }
+    };
+    mirror(mirror_about_start(raw), raw < mirror_about_start(raw));
+    if (right_end_ == RightEnd::mirrored) mirror(mirror_about_end(raw), raw > mirror_about_end(raw));
+    folded = sign == 0.0 ? 0 : raw - centre - ((odd_degree && parity_ == Parity::odd) ? 1 : 0);
+    return sign;
 }
 
 Index SplineSpace::element_of(double xi) const {
@@ -129,14 +135,14 @@ std::array<double, 6> SplineSpace::taylor(const Eigen::VectorXd& coefficients, d
 
 std::vector<double> SplineSpace::greville_points() const {
     std::vector<double> points(at(dimension_), 0.0);
-    const Index raw_count = static_cast<Index>(knots_.size()) - degree_ - 1;
-    for (Index raw = 0; raw < raw_count; ++raw) {
+    for (Index raw = 0; raw < raw_count(); ++raw) {
         Index folded = 0;
-        const double sign = fold(raw, folded);
-        if (sign == 0.0 || raw < degree_ - 1 - raw) continue;
+        const bool image =
+            raw < mirror_about_start(raw) || (right_end_ == RightEnd::mirrored && raw > mirror_about_end(raw));
+        if (image || fold(raw, folded) == 0.0) continue;
         double sum = 0.0;
         for (int k = 1; k <= degree_; ++k) sum += knots_[at(raw + k)];
-        points[at(folded)] = std::max(0.0, sum / degree_);
+        points[at(folded)] = std::clamp(sum / degree_, 0.0, 1.0);
     }
     return points;
 }

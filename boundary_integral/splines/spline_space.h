@@ -12,6 +12,7 @@ namespace endoflow::boundary_integral {
 using Index = Eigen::Index;
 
 enum class Parity { even, odd };
+enum class RightEnd { free, mirrored };  // at xi = 1: multiple knot, or the same parity as at 0
 
 // Values of the (at most six) functions of a space that do not vanish at one point. An index may appear twice (a
 // function and its mirror image): contributions add.
@@ -33,11 +34,12 @@ struct BasisRow {
 };
 
 // Splines of degree p <= 5 on the increasing breakpoints 0 = b_0 < ... < b_n = 1, of maximal smoothness inside, with
-// the stated parity about 0 and a (p+1)-fold knot at 1. The first p breakpoint intervals must be equally long.
-// Dimension (n intervals): p odd: n + (p+1)/2 even or n + (p-1)/2 odd functions; p even: n + p/2.
+// the stated parity about 0 and, at 1, a (p+1)-fold knot or the same parity. p breakpoint intervals beside a mirror
+// must be equally long. Dimension (n intervals), right end free: p odd: n + (p+1)/2 even or n + (p-1)/2 odd functions;
+// p even: n + p/2. Right end mirrored: p odd: n + 1 even or n - 1 odd functions; p even: n.
 class SplineSpace {
   public:
-    SplineSpace(int degree, std::vector<double> breakpoints, Parity parity);
+    SplineSpace(int degree, std::vector<double> breakpoints, Parity parity, RightEnd right_end = RightEnd::free);
 
     Index dimension() const { return dimension_; }
     int degree() const { return degree_; }
@@ -57,10 +59,14 @@ class SplineSpace {
   private:
     int degree_;
     Parity parity_;
+    RightEnd right_end_;
     std::vector<double> breakpoints_;
     std::vector<double> knots_;
     Index dimension_ = 0;
 
+    Index raw_count() const { return static_cast<Index>(knots_.size()) - degree_ - 1; }
+    Index mirror_about_start(Index raw) const { return degree_ - 1 - raw; }
+    Index mirror_about_end(Index raw) const { return 2 * raw_count() - 1 - degree_ - raw; }
     double fold(Index raw, Index& folded) const;  // sign (or 0) and folded index of a raw B-spline
     // raw functions first..first+degree on the knot span, derivatives 0..highest
     void raw_basis(double xi, Index element, int highest, std::array<std::array<double, 6>, 6>& values) const;

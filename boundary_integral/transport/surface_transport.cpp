@@ -106,6 +106,24 @@ Eigen::VectorXd advection_rate(const MembraneSpace& space, const MembraneSamples
                            [&](std::size_t i) { return samples.c[i] * samples.curve[i].r * relative_velocity[i]; });
 }
 
+Eigen::MatrixXd advection_from_mesh_velocity(const MembraneSpace& space, const MembraneSamples& samples) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(space.axial_count(), space.curve_count());
+    for (std::size_t i = 0; i < space.xi.size(); ++i) {
+        const CurvePoint& p = samples.curve[i];
+        const BasisRow& radial = space.radial_rows[i];
+        const BasisRow& phi = space.axial_rows[i];
+        const double flux = -space.weight[i] * samples.c[i] * p.r / p.g;
+        for (std::size_t a = 0; a < 6; ++a) {
+            for (std::size_t b = 0; b < 6; ++b) {
+                matrix(phi.index[a], radial.index[b]) += flux * phi.value[1][a] * p.r1 * radial.value[0][b];
+                matrix(phi.index[a], space.radial_count() + phi.index[b]) +=
+                    flux * phi.value[1][a] * p.z1 * phi.value[0][b];
+            }
+        }
+    }
+    return matrix;
+}
+
 TransportDerivatives transport_derivatives(const MembraneSpace& space, const MembraneSamples& samples,
                                            const Eigen::VectorXd& c, const MoleculeParameters& molecules,
                                            const std::vector<double>& relative_velocity) {

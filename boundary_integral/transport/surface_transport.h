@@ -31,6 +31,10 @@ Eigen::VectorXd diffusion_rate(const MembraneSpace& space, const MembraneSamples
 Eigen::VectorXd advection_rate(const MembraneSpace& space, const MembraneSamples& samples,
                                const std::vector<double>& relative_velocity);
 
+// Derivative of advection_rate by the mesh's tangential velocity (curve_count), which carries the mesh off the
+// material.
+Eigen::MatrixXd advection_from_mesh_velocity(const MembraneSpace& space, const MembraneSamples& samples);
+
 // Derivatives of diffusion_rate + advection_rate (at fixed v) and of c itself.
 struct TransportDerivatives {
     Eigen::MatrixXd c_from_moments;   // dc/dm = M^-1

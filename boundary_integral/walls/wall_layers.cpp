@@ -1,4 +1,5 @@
 #include "boundary_integral/quadrature/singular_rules.h"
+#include "boundary_integral/support/parallel.h"
 #include "boundary_integral/walls/wall_panels.h"
 
 namespace endoflow::boundary_integral {
@@ -24,21 +25,19 @@ struct PanelPoint {
 
 class Builder {
   public:
-    Builder(const WallPanels& walls, Index rows)
-        : walls_(walls), wall_rule_(gauss_legendre(wall_points)), membrane_rule_(gauss_legendre(membrane_points)) {
-        matrix_ = RowMatrix::Zero(rows, walls.unknowns());
-    }
+    Builder(const WallPanels& walls, const QuadratureRule& wall_rule, const QuadratureRule& membrane_rule,
+            RowMatrix& matrix)
+        : walls_(walls), wall_rule_(wall_rule), membrane_rule_(membrane_rule), matrix_(matrix) {}
 
     void add(const WallTarget& target) {
         for (const WallPanel& panel : walls_.panels()) add_panel(target, panel);
     }
 
-    RowMatrix take() { return std::move(matrix_); }
-
   private:
     const WallPanels& walls_;
-    QuadratureRule wall_rule_, membrane_rule_;
-    RowMatrix matrix_;
+    const QuadratureRule& wall_rule_;
+    const QuadratureRule& membrane_rule_;
+    RowMatrix& matrix_;
     RingSources sources_;
     RingKernels kernels_;
 
@@ -68,9 +67,15 @@ class Builder {
         const double dz = segment.z_end - segment.z_begin;
         const double r = segment.r_begin + fraction * dr;
         const double z = segment.z_begin + fraction * dz;
+        push_differences(target, segment, r, same ? fraction_offset * dr : r - target.at.r,
+                         same ? fraction_offset * dz : z - target.at.z);
+    }
+
+    void push_differences(const WallTarget& target, const WallSegment& segment, double r, double delta_r,
+                          double delta_z) {
         sources_.radius.push_back(r);
-        sources_.delta_r.push_back(same ? fraction_offset * dr : r - target.at.r);
-        sources_.delta_z.push_back(same ? fraction_offset * dz : z - target.at.z);
+        sources_.delta_r.push_back(delta_r);
+        sources_.delta_z.push_back(delta_z);
         sources_.normal_r.push_back(segment.normal_r);
         sources_.normal_offset.push_back(segment.normal_r * (segment.r_begin - target.at.r) +
                                          segment.normal_z * (segment.z_begin - target.at.z));
@@ -81,7 +86,8 @@ class Builder {
         const std::size_t count = walls_.rule().nodes.size();
         sources_.resize(0);
         for (std::size_t i = 0; i < count; ++i) {
-            push(target, segment, segment.fraction(walls_.nodes()[at(panel.first_node) + i].tau), 0.0, false);
+            const WallNode& node = walls_.nodes()[at(panel.first_node) + i];
+            push_differences(target, segment, node.r, node.r - target.at.r, node.z - target.at.z);
         }
         evaluate_ring_kernels(target.at.r, sources_, kernels_);
         for (std::size_t i = 0; i < count; ++i) {
@@ -129,10 +135,15 @@ class Builder {
 
 }  // namespace
 
-RowMatrix wall_layers(const WallPanels& walls, const std::vector<WallTarget>& targets, Index rows) {
-    Builder builder(walls, rows);
-    for (const WallTarget& target : targets) builder.add(target);
-    return builder.take();
+RowMatrix wall_layers(const WallPanels& walls, const std::vector<WallTarget>& targets, Index rows, int threads) {
+    RowMatrix matrix = RowMatrix::Zero(rows, walls.unknowns());
+    const QuadratureRule wall_rule = gauss_legendre(wall_points), membrane_rule = gauss_legendre(membrane_points);
+    // Every target owns its rows.
+    parallel_parts(static_cast<Index>(targets.size()), threads, [&](Index begin, Index end) {
+        Builder builder(walls, wall_rule, membrane_rule, matrix);
+        for (Index i = begin; i < end; ++i) builder.add(targets[at(i)]);
+    });
+    return matrix;
 }
 
 }  // namespace endoflow::boundary_integral

@@ -88,6 +88,6 @@ struct WallTarget {
 };
 
 // Rows of  sum_k nu_k int_{wall k} u.T.m dS - int_band t.G dS  acting on the wall unknowns.
-RowMatrix wall_layers(const WallPanels& walls, const std::vector<WallTarget>& targets, Index rows);
+RowMatrix wall_layers(const WallPanels& walls, const std::vector<WallTarget>& targets, Index rows, int threads = 1);
 
 }  // namespace endoflow::boundary_integral

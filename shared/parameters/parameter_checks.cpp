@@ -77,15 +77,17 @@ void validate_combination(const Parameters& p, const std::string& where) {
     const auto require = [&](bool holds, const std::string& message) {
         if (!holds) throw InputError(where + ": " + message);
     };
-    const double below = p.domain.membrane_height, above = p.domain.height - p.domain.membrane_height;
-    require(p.molecules.patch_radius < p.domain.radius,
-            fmt::format("molecules.patch_radius = {} nm must be smaller than domain.radius = {} nm",
-                        p.molecules.patch_radius, p.domain.radius));
-    const double room = p.domain.pin_half_width + p.domain.wall_clearance;
-    require(below > room && above > room,
-            fmt::format("domain.membrane_height = {} nm must lie farther than pin_half_width + wall_clearance = {} nm "
-                        "from the bottom (0) and the top (domain.height = {} nm)",
-                        below, room, p.domain.height));
+    if (p.domain.kind == DomainKind::box) {
+        const double below = p.domain.membrane_height, above = p.domain.height - p.domain.membrane_height;
+        require(p.molecules.patch_radius < p.domain.radius,
+                fmt::format("molecules.patch_radius = {} nm must be smaller than domain.radius = {} nm",
+                            p.molecules.patch_radius, p.domain.radius));
+        const double room = p.domain.pin_half_width + p.domain.wall_clearance;
+        require(below > room && above > room,
+                fmt::format("domain.membrane_height = {} nm must lie farther than pin_half_width + wall_clearance = {} "
+                            "nm from the bottom (0) and the top (domain.height = {} nm)",
+                            below, room, p.domain.height));
+    }
     require(p.time.initial_step <= p.time.max_step,
             fmt::format("time.initial_step = {} µs must not exceed time.max_step = {} µs", p.time.initial_step,
                         p.time.max_step));

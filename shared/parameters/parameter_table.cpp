@@ -11,6 +11,10 @@ template <class Enum>
 struct EnumNames;
 
 template <>
+struct EnumNames<DomainKind> {
+    static constexpr std::array names{"box", "free-space"};
+};
+template <>
 struct EnumNames<Dynamics> {
     static constexpr std::array names{"flow", "geometric"};
 };
@@ -91,6 +95,9 @@ std::vector<ParameterRow> case_rows() {
 std::vector<ParameterRow> domain_rows() {
     using S = DomainParameters;
     return {
+        row("domain", "kind", &P::domain, &S::kind, "", any(), "",
+            "box: membrane across a cylinder; free-space: closed vesicle in unbounded fluid (boundary-integral engine "
+            "only)"),
         row("domain", "radius", &P::domain, &S::radius, "nm", positive(1e5), "R", "radius of the cylindrical domain"),
         row("domain", "height", &P::domain, &S::height, "nm", positive(1e5), "",
             "height of the domain, 0 < z < height"),
@@ -101,6 +108,10 @@ std::vector<ParameterRow> domain_rows() {
         row("domain", "wall_clearance", &P::domain, &S::wall_clearance, "nm", positive(1e4), "",
             "a run stops when the membrane comes nearer than this to the bottom, the top or (away from its rim) the "
             "side wall"),
+        row("domain", "spheroid_polar_axis", &P::domain, &S::spheroid_polar_axis, "nm", positive(1e5), "",
+            "free space: semi-axis of the initial spheroid along z"),
+        row("domain", "spheroid_equatorial_axis", &P::domain, &S::spheroid_equatorial_axis, "nm", positive(1e5), "",
+            "free space: semi-axis of the initial spheroid across z"),
     };
 }
 
@@ -117,6 +128,8 @@ std::vector<ParameterRow> fluid_rows() {
             "Navier-Stokes instead of Stokes flow (phase-field engine only)"),
         row("fluid", "dynamics", &P::fluid, &S::dynamics, "", any(), "",
             "flow: the membrane moves with the fluid; geometric: gradient flow of the bending energy, no fluid"),
+        row("fluid", "normal_mobility", &P::fluid, &S::normal_mobility, "nm^3/(pN µs)", positive(1e12), "",
+            "geometric evolution: normal velocity per normal force density, the sharp limit of γ 3ε/(2√2)"),
     };
 }
 

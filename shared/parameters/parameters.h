@@ -7,6 +7,7 @@ namespace endoflow {
 // Every default is the paper's standard case (Table 1) unless the parameter table says otherwise.
 // Units: nm, µs, pN. Bounds, units, meanings and symbols of all of these stand in parameter_table.cpp.
 
+enum class DomainKind { box, free_space };
 enum class Dynamics { flow, geometric };
 enum class CurvatureConvention { as_printed, consistent };
 enum class ConstitutiveLaw { linear, coarse_grained, lumped };
@@ -20,11 +21,14 @@ struct CaseParameters {
 };
 
 struct DomainParameters {
+    DomainKind kind = DomainKind::box;
     double radius = 80;
     double height = 160;
     double membrane_height = 80;
     double pin_half_width = 5;
     double wall_clearance = 2;
+    double spheroid_polar_axis = 60;
+    double spheroid_equatorial_axis = 40;
 };
 
 struct FluidParameters {
@@ -33,6 +37,7 @@ struct FluidParameters {
     double density = 1e-9;
     bool inertia = false;
     Dynamics dynamics = Dynamics::flow;
+    double normal_mobility = 5.345;
 };
 
 struct MembraneParameters {
@@ -84,7 +89,7 @@ struct BoundaryIntegralParameters {
     double mesh_edge_weight = 4;
     double mesh_smoothing = 0.05;
     double mesh_relaxation_time = 0.02;
-    double neck_closed_radius = 0.05;
+    double neck_closed_radius = 0.5;
     double field_spacing = 2;
 };
 

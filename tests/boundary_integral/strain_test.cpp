@@ -76,12 +76,15 @@ TEST_CASE("the stretching of an extensible membrane is that of its area", "[stra
     const MembraneState initial = dynamics.unpack(y);
     const auto start = strain.markers().xi;
     StiffProblem problem;
-    problem.rate = [&](double, const Eigen::VectorXd& at) { return dynamics.evaluate(at).rate; };
-    problem.jacobian = [&](double, const Eigen::VectorXd& at) { return dynamics.jacobian(dynamics.evaluate(at)); };
-    problem.event = [](const Eigen::VectorXd&) { return 1.0; };
-    problem.error_scales = dynamics.error_scales(y, 1e-6, 1e-6);
-    StiffIntegrator integrator(problem, 0, y, {1e-7, 1e-4, 1e-14});
     Evaluation now = dynamics.evaluate(y);
+    problem.begin_step = [](const Eigen::VectorXd&) {};
+    problem.rate = [&](const Eigen::VectorXd& at) {
+        now = dynamics.evaluate(at);
+        return now.rate;
+    };
+    problem.jacobian = [&] { return dynamics.jacobian(now); };
+    problem.error_scales = dynamics.error_scales(y, 1e-6, 1e-6);
+    StiffIntegrator integrator(problem, StepHistory::start(0, 1e-7, y, now.rate), {1e-4, 1e-14});
     MaterialRates rates = strain.rates(now);
     for (double time = 0; time < 0.002; time = integrator.time()) {
         integrator.advance(0.002);

@@ -1,0 +1,22 @@
+#pragma once
+
+// Stokes flow in and around a closed membrane in unbounded fluid at rest far away.
+
+#include "boundary_integral/flow/membrane_collocation.h"
+
+namespace endoflow::boundary_integral {
+
+class FreeSpaceFlow : public FlowModel {
+  public:
+    FreeSpaceFlow(const Parameters& parameters, const MembraneSpace& space);
+
+    MobilityOperators operators(const MembraneState& state, const MembraneSamples& samples) const override;
+
+  private:
+    MembraneCollocation collocation_;
+    int threads_;
+};
+
+FlowBalances flow_balances(const MembraneSpace& space, const MembraneSamples& samples, const FlowSolution& flow);
+
+}  // namespace endoflow::boundary_integral

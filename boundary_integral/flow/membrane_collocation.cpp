@@ -1,0 +1,84 @@
+#include "boundary_integral/flow/membrane_collocation.h"
+
+#include <numbers>
+
+#include "boundary_integral/flow/dense_solver.h"
+
+namespace endoflow::boundary_integral {
+
+namespace {
+
+Eigen::MatrixXd evaluation_rows(const MembraneSpace& space, Index rows) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows, space.curve_count());
+    Index row = 0;
+    const auto add = [&](const SplineSpace& spline, double xi, Index offset) {
+        const BasisRow basis = spline.basis(xi);
+        for (std::size_t j = 0; j < static_cast<std::size_t>(basis.count); ++j) {
+            matrix(row, offset + basis.index[j]) += basis.value[0][j];
+        }
+        ++row;
+    };
+    for (double xi : space.radial_targets) add(space.radial(), xi, 0);
+    for (double xi : space.axial_targets) add(space.axial(), xi, space.radial_count());
+    return matrix;
+}
+
+}  // namespace
+
+MembraneCollocation::MembraneCollocation(const MembraneSpace& space, const FluidParameters& fluid)
+    : space_(space),
+      viscosity_below_(fluid.viscosity_extracellular),
+      viscosity_above_(fluid.viscosity_intracellular),
+      evaluation_(evaluation_rows(space, rows())) {
+    merge_targets();
+    const QuadratureRule rule = gauss_legendre(LayerQuadrature{}.singular_points);
+    for (Point& point : points_) point.own = own_elements(space_, point.xi, rule);
+}
+
+Index MembraneCollocation::rows() const {
+    return static_cast<Index>(space_.radial_targets.size() + space_.axial_targets.size());
+}
+
+// Both lists come from the same Greville points except at the ends: merge equal parameters.
+void MembraneCollocation::merge_targets() {
+    constexpr double slack = 1e-12;
+    const auto& radial = space_.radial_targets;
+    const auto& axial = space_.axial_targets;
+    std::size_t i = 0, j = 0;
+    while (i < radial.size() || j < axial.size()) {
+        const double next_radial = i < radial.size() ? radial[i] : 2.0;
+        const double next_axial = j < axial.size() ? axial[j] : 2.0;
+        Point point{std::min(next_radial, next_axial), {}, {}};
+        if (next_radial <= point.xi + slack) point.rows.radial = static_cast<Index>(i++);
+        if (next_axial <= point.xi + slack) point.rows.axial = static_cast<Index>(radial.size() + j++);
+        points_.push_back(std::move(point));
+    }
+}
+
+std::vector<MembraneTarget> MembraneCollocation::targets(const MembraneState& state) const {
+    std::vector<MembraneTarget> result;
+    for (const Point& point : points_) {
+        const CurvePoint p = curve_point(space_.radial().basis(point.xi), space_.axial().basis(point.xi), state);
+        const bool on_axis = point.rows.radial < 0;
+        result.push_back({{on_axis ? 0.0 : p.r, p.z}, point.rows, point.xi, &point.own});
+    }
+    return result;
+}
+
+MembraneCollocation::Equation MembraneCollocation::equation(const MembraneState& state, const MembraneSamples& samples,
+                                                            const std::vector<MembraneTarget>& targets,
+                                                            const LayerQuadrature& quadrature) const {
+    MembraneLayers layers = membrane_layers(space_, state, samples, targets, rows(), quadrature);
+    return {4.0 * std::numbers::pi * (viscosity_below_ + viscosity_above_) * evaluation_ + contrast() * layers.doubled,
+            std::move(layers.single)};
+}
+
+void MembraneCollocation::solve(const Equation& equation, MobilityOperators& operators) const {
+    const VelocityFreedoms& freedoms = operators.freedoms;
+    const LuFactors velocity(freedoms.restrict_columns(equation.velocity), "velocity");
+    const LuFactors mass(freedoms.restrict_rows(force_mass_matrix(space_, operators.samples)), "force mass");
+    operators.force_from_load = mass.solve(Eigen::MatrixXd::Identity(freedoms.count(), freedoms.count()));
+    operators.mobility = velocity.solve(equation.force * operators.force_from_load);
+}
+
+}  // namespace endoflow::boundary_integral

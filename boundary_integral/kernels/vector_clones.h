@@ -1,0 +1,8 @@
+#pragma once
+
+// Functions marked so are compiled for several instruction sets; the loader picks the widest one the processor has.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define ENDOFLOW_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define ENDOFLOW_VECTOR_CLONES
+#endif
