@@ -20,6 +20,9 @@ from pages import ROOT, blocks, pages
 SHARED = ("cases", "python", "comparisons", "tests", "docs")
 TIME_LIMIT = 600
 
+#: Directory below the scratch directory with the Python that the build found, which has numpy and h5py.
+TOOLS = ".tools"
+
 
 def readable(block):
     """Where a block is, for messages."""
@@ -28,15 +31,23 @@ def readable(block):
 
 def environment(build):
     """The environment of the commands: BUILD on the path, so that `endoflow` is found as when installed."""
-    own = {"PATH": f"{build}:{os.environ['PATH']}", "PYTHONPATH": "python", "MPLBACKEND": "Agg"}
+    own = {"PATH": f"{TOOLS}:{build}:{os.environ['PATH']}", "PYTHONPATH": "python", "MPLBACKEND": "Agg"}
     if os.geteuid() == 0:  # OpenMPI refuses to run as root unless told twice that this is meant
         own |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     return {**os.environ, **own}
 
 
+def python_of(build):
+    """The Python interpreter that CMake found for a build (Path)."""
+    cache = build / "CMakeCache.txt"
+    found = re.search(r"^ENDOFLOW_PYTHON:\w+=(.*)$", cache.read_text(encoding="utf-8"), re.M) if cache.exists() else None
+    return found.group(1) if found else sys.executable
+
+
 def run(block, scratch, build):
     """Run a block; returns what is wrong, or ""."""
-    command = ["bash", "-e", "-o", "pipefail", "-c", block.text] if block.kind == "sh" else ["python3", "-c", block.text]
+    text = block.text if block.kind == "sh" else f"python3 -c {shlex.quote(block.text)}"
+    command = ["bash", "-e", "-o", "pipefail", "-c", text]
     started = time.monotonic()
     try:
         process = subprocess.run(
@@ -91,6 +102,8 @@ def main(arguments):
         for name in SHARED:
             (Path(scratch) / name).symlink_to(ROOT / name)
         (Path(scratch) / "build").symlink_to(build)
+        (Path(scratch) / TOOLS).mkdir()
+        (Path(scratch) / TOOLS / "python3").symlink_to(python_of(build))
         for page in [ROOT / "README.md", *pages()]:
             for block in blocks(page):
                 if block.mark.startswith("file: "):
