@@ -205,13 +205,11 @@ class Run {
 
     // All zero without a fluid.
     FlowBalances balances(const Evaluation& accepted) const {
-        const MembraneSamples& samples = accepted.operators->samples;
         if (accepted.flow.force.size() == 0) return {};
         if (const BoxFlow* box = dynamics_.box()) {
-            return flow_balances(dynamics_.space(), *box, samples, accepted.flow,
-                                 box->wall_unknowns(*accepted.operators, accepted.flow));
+            return flow_balances(dynamics_.space(), *box, *accepted.operators, accepted.samples, accepted.flow);
         }
-        return flow_balances(dynamics_.space(), samples, accepted.flow);
+        return flow_balances(dynamics_.space(), *accepted.operators, accepted.samples, accepted.flow);
     }
 
     void check_walls(const ShapeIntegrals& shape, double time) const {

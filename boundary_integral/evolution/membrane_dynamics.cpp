@@ -126,21 +126,20 @@ Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
     const Index curve = free_radial() + free_axial();
     const Index moments = space_.axial_count();
     const VelocityFreedoms& freedoms = e.operators->freedoms;
-    const std::vector<double> tension = values_at_points(space_.tension_rows, e.flow.tension);
-    const EnergyDerivatives second = bending_energy(space_, e.state, model_, Derivatives::second, tension);
+    const EnergyDerivatives second = bending_energy(space_, e.state, model_, Derivatives::second, e.flow.multipliers);
 
-    // Velocity freedoms: delta u = Y delta load with C delta u = - delta C u.
+    // Velocity freedoms: delta u = Y delta load with B delta u = - delta B u.
     Eigen::MatrixXd load_curve = -freedoms.restrict_rows(pack_columns(second.hessian));
     Eigen::MatrixXd load_c = -freedoms.restrict_rows(second.mixed);
     Eigen::MatrixXd velocity_curve = e.operators->mobility * load_curve;
     Eigen::MatrixXd velocity_c = e.operators->mobility * load_c;
-    if (flow_->inextensible()) {
-        const Eigen::MatrixXd divergence = freedoms.restrict_columns(divergence_matrix(space_, e.samples));
-        const Eigen::MatrixXd response = e.operators->mobility * divergence.transpose();
-        const LuFactors schur(divergence * response, "tension");
-        const Eigen::MatrixXd stretching = pack_columns(divergence_variation(space_, e.samples, e.flow.velocity));
-        velocity_curve -= response * schur.solve(divergence * velocity_curve + stretching);
-        velocity_c -= response * schur.solve(divergence * velocity_c);
+    if (flow_->constrained()) {
+        const Eigen::MatrixXd constraint = flow_->constraint_matrix(e.samples, freedoms);
+        const Eigen::MatrixXd response = e.operators->mobility * constraint.transpose();
+        const LuFactors schur(constraint * response, "tension");
+        const Eigen::MatrixXd variation = pack_columns(flow_->constraint_variation(e.samples, e.flow.velocity));
+        velocity_curve -= response * schur.solve(constraint * velocity_curve + variation);
+        velocity_c -= response * schur.solve(constraint * velocity_c);
     }
     const double relaxation = mesh_.relaxation_rate(e.flow.velocity);
     const MeshMotion::Derivatives mesh = mesh_.derivatives(e.state, e.samples, e.flow.inflow, relaxation);

@@ -142,7 +142,7 @@ MembraneCurve membrane_curve(const MembraneSpace& space, const Evaluation& e, In
         curve.r.push_back(on_axis ? 0.0 : p.r);
         curve.z.push_back(p.z);
         curve.c.push_back(axial.evaluate(e.state.c));
-        curve.lambda.push_back(space.tension().basis(xi).evaluate(e.flow.tension));
+        curve.lambda.push_back(space.tension().basis(xi).evaluate(e.flow.multipliers.tension));
         curve.kappa.push_back(p.total_curvature());
         curve.u_r.push_back(on_axis ? 0.0 : radial.evaluate(u_r));
         curve.u_z.push_back(axial.evaluate(u_z));

@@ -62,13 +62,14 @@ void MembraneSources::add_to(RingLayers& layers, const Target& target) const {
         double closest = 1e300;
         std::size_t closest_point = first;
         for (std::size_t i = first; i < first + per_element; ++i) {
-            const double distance = std::hypot(samples_.curve[i].r - target.r, samples_.curve[i].z - target.z);
+            const double distance = squared_distance(samples_.curve[i], target);
             if (distance < closest) {
                 closest = distance;
                 closest_point = i;
             }
         }
-        if (closest < near_distance * lengths_[static_cast<std::size_t>(element)]) {
+        const double near = near_distance * lengths_[static_cast<std::size_t>(element)];
+        if (closest < near * near) {
             add_near_element(layers, target, element, space_.xi[closest_point]);
             continue;
         }
@@ -79,7 +80,7 @@ void MembraneSources::add_to(RingLayers& layers, const Target& target) const {
 void MembraneSources::add_near_element(RingLayers& layers, const Target& target, Index element, double guess) const {
     const double begin = static_cast<double>(element) * space_.element_width();
     const auto [closest, p] = closest_on_element(space_, state_, element, target, guess);
-    const double distance = std::max(std::hypot(p.r - target.r, p.z - target.z), least_distance);
+    const double distance = std::max(std::sqrt(squared_distance(p, target)), least_distance);
     const OffsetRule rule =
         near_singular_rule(begin, begin + space_.element_width(), closest, distance / p.g, near_rule_);
     for (std::size_t i = 0; i < rule.offsets.size(); ++i) {

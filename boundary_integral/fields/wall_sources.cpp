@@ -52,6 +52,10 @@ WallSources::WallSources(const WallPanels& walls, const Eigen::VectorXd& unknown
             }
         }
     }
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        const WallNode& node = walls.nodes()[i];
+        densities_.push_back(density(walls.segments()[node.segment], nodes_[i], node.r, node.speed, node.weight));
+    }
 }
 
 RingDensity WallSources::density(const WallSegment& segment, const NodeValues& v, double r, double speed,
@@ -83,8 +87,7 @@ void WallSources::add_to(RingLayers& layers, const Target& target) const {
         for (std::size_t i = 0; i < walls_.rule().nodes.size(); ++i) {
             const std::size_t at = static_cast<std::size_t>(panel.first_node) + i;
             const WallNode& node = walls_.nodes()[at];
-            layers.add({node.r, node.z, segment.normal_r, segment.normal_z},
-                       density(segment, nodes_[at], node.r, node.speed, node.weight));
+            layers.add({node.r, node.z, segment.normal_r, segment.normal_z}, densities_[at]);
         }
     }
 }

@@ -9,11 +9,11 @@
 namespace endoflow::boundary_integral {
 
 namespace {
-constexpr int nodes_per_wall_panel = 10;
+constexpr int nodes_per_wall_panel = 8;
 }
 
 BoxFlow::BoxFlow(const Parameters& parameters, const MembraneSpace& space)
-    : FlowModel(space, parameters.membrane.inextensible),
+    : FlowModel(space, {parameters.membrane.inextensible, false}),
       collocation_(space, parameters.fluid),
       walls_(parameters.domain, parameters.fluid, nodes_per_wall_panel),
       threads_(thread_count(parameters.boundary_integral.threads)) {
@@ -70,9 +70,11 @@ Eigen::VectorXd BoxFlow::wall_unknowns(const MobilityOperators& operators, const
     return wall_factors_->solve(operators.wall_from_force * flow.force + operators.wall_from_velocity * flow.velocity);
 }
 
-FlowBalances flow_balances(const MembraneSpace& space, const BoxFlow& box, const MembraneSamples& samples,
-                           const FlowSolution& flow, const Eigen::VectorXd& wall_unknowns) {
-    const MembraneFluxes membrane = membrane_fluxes(space, samples, flow);
+FlowBalances flow_balances(const MembraneSpace& space, const BoxFlow& box, const MobilityOperators& operators,
+                           const MembraneSamples& samples, const FlowSolution& flow) {
+    const Eigen::VectorXd wall_unknowns = box.wall_unknowns(operators, flow);
+    const MembraneFluxes membrane = membrane_fluxes(space, operators.samples, flow);
+    const double area_growth = membrane_fluxes(space, samples, flow).area_growth;
     double band_force = 0.0, band_modulus = 0.0;
     double out_below = 0.0, out_above = 0.0;
     const auto& nodes = box.walls().nodes();
@@ -93,7 +95,7 @@ FlowBalances flow_balances(const MembraneSpace& space, const BoxFlow& box, const
     return {std::abs(membrane.force + band_force) / (membrane.force_modulus + band_modulus + tiny),
             (std::abs(out_below + membrane.volume) + std::abs(out_above - membrane.volume)) /
                 (membrane.volume_modulus + tiny),
-            std::abs(membrane.area_growth) / (std::abs(samples.rim_radius * flow.inflow) + tiny)};
+            std::abs(area_growth) / (std::abs(samples.rim_radius * flow.inflow) + tiny)};
 }
 
 }  // namespace endoflow::boundary_integral

@@ -34,7 +34,8 @@ class BoxFlow : public FlowModel {
     std::optional<LuFactors> wall_factors_;
 };
 
-FlowBalances flow_balances(const MembraneSpace& space, const BoxFlow& box, const MembraneSamples& samples,
-                           const FlowSolution& flow, const Eigen::VectorXd& wall_unknowns);
+// `samples`: the shape that moves with `flow`; that of the operators may be another, close one.
+FlowBalances flow_balances(const MembraneSpace& space, const BoxFlow& box, const MobilityOperators& operators,
+                           const MembraneSamples& samples, const FlowSolution& flow);
 
 }  // namespace endoflow::boundary_integral

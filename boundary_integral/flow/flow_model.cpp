@@ -46,6 +46,22 @@ Eigen::MatrixXd VelocityFreedoms::restrict_rows(const Eigen::MatrixXd& matrix) c
     return result;
 }
 
+Eigen::MatrixXd FlowModel::constraint_matrix(const MembraneSamples& samples, const VelocityFreedoms& freedoms) const {
+    const Index tensions = constraints_.local_area ? space_.tension().dimension() : 0;
+    Eigen::MatrixXd matrix(tensions + (constraints_.volume ? 1 : 0), space_.curve_count());
+    if (constraints_.local_area) matrix.topRows(tensions) = divergence_matrix(space_, samples);
+    if (constraints_.volume) matrix.bottomRows(1) = volume_gradient(space_, samples);
+    return freedoms.restrict_columns(matrix);
+}
+
+Eigen::MatrixXd FlowModel::constraint_variation(const MembraneSamples& samples, const Eigen::VectorXd& velocity) const {
+    const Index tensions = constraints_.local_area ? space_.tension().dimension() : 0;
+    Eigen::MatrixXd matrix(tensions + (constraints_.volume ? 1 : 0), space_.curve_count());
+    if (constraints_.local_area) matrix.topRows(tensions) = divergence_variation(space_, samples, velocity);
+    if (constraints_.volume) matrix.bottomRows(1) = volume_variation(space_, samples, velocity);
+    return matrix;
+}
+
 FlowSolution FlowModel::solve(const MobilityOperators& operators, const MembraneSamples& samples,
                               const EnergyDerivatives& energy, double rim_energy_density) const {
     const VelocityFreedoms& freedoms = operators.freedoms;
@@ -55,14 +71,14 @@ FlowSolution FlowModel::solve(const MobilityOperators& operators, const Membrane
     Eigen::VectorXd gradient = freedoms.restrict_rows(energy.gradient);
     if (freedoms.inflow) gradient[space_.radial_count() - 1] -= samples.rim_radius * rim_energy_density;
     flow.load = -gradient;
-    if (inextensible_) {
-        const Eigen::MatrixXd divergence = freedoms.restrict_columns(divergence_matrix(space_, samples));
-        const Eigen::MatrixXd response = operators.mobility * divergence.transpose();
-        const LuFactors schur(divergence * response, "tension");
-        flow.tension = schur.solve(divergence * (operators.mobility * flow.load));
-        flow.load -= divergence.transpose() * flow.tension;
-    } else {
-        flow.tension = Eigen::VectorXd::Zero(space_.tension().dimension());
+    flow.multipliers.tension = Eigen::VectorXd::Zero(space_.tension().dimension());
+    if (constrained()) {
+        const Eigen::MatrixXd constraint = constraint_matrix(samples, freedoms);
+        const LuFactors schur(constraint * operators.mobility * constraint.transpose(), "tension");
+        const Eigen::VectorXd values = schur.solve(constraint * (operators.mobility * flow.load));
+        flow.load -= constraint.transpose() * values;
+        if (constraints_.local_area) flow.multipliers.tension = values.head(space_.tension().dimension());
+        if (constraints_.volume) flow.multipliers.pressure = values[values.size() - 1];
     }
     if (operators.force_from_load.size() > 0) flow.force = operators.force_from_load * flow.load;
     const Eigen::VectorXd velocity = operators.mobility * flow.load;

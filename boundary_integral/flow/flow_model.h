@@ -47,15 +47,21 @@ struct MobilityOperators {
 struct FlowSolution {
     Eigen::VectorXd velocity;  // curve_count coefficients (u_r, u_z), nm/us
     Eigen::VectorXd force;     // force_count coefficients of f, pN/nm^2
-    Eigen::VectorXd tension;   // coefficients of lambda, pN/nm
-    Eigen::VectorXd load;      // freedoms: -(dE - inflow) - C^T lambda, pN per 2 pi
+    Multipliers multipliers;   // tension; pressure of a closed membrane
+    Eigen::VectorXd load;      // freedoms: -(dE - inflow) - B^T multipliers, pN per 2 pi
     double inflow = 0.0;       // u_r(rim), nm/us
     double power = 0.0;        // load . velocity = int f.u dA, pN nm/us
 };
 
+// What every velocity must leave as it is.
+struct Constraints {
+    bool local_area = false;  // div_Gamma u = 0 (A.14), by the tension
+    bool volume = false;      // inside a closed membrane, by the pressure
+};
+
 class FlowModel {
   public:
-    FlowModel(const MembraneSpace& space, bool inextensible) : space_(space), inextensible_(inextensible) {}
+    FlowModel(const MembraneSpace& space, const Constraints& constraints) : space_(space), constraints_(constraints) {}
     virtual ~FlowModel() = default;
     FlowModel(const FlowModel&) = delete;
     FlowModel& operator=(const FlowModel&) = delete;
@@ -66,14 +72,18 @@ class FlowModel {
     FlowSolution solve(const MobilityOperators& operators, const MembraneSamples& samples,
                        const EnergyDerivatives& energy, double rim_energy_density) const;
 
-    bool inextensible() const { return inextensible_; }
+    // B u = 0: weak surface divergence, then the volume. B's variation is at fixed u. Columns: freedoms of the
+    // velocity, all curve coefficients.
+    Eigen::MatrixXd constraint_matrix(const MembraneSamples& samples, const VelocityFreedoms& freedoms) const;
+    Eigen::MatrixXd constraint_variation(const MembraneSamples& samples, const Eigen::VectorXd& velocity) const;
+    bool constrained() const { return constraints_.local_area || constraints_.volume; }
 
   protected:
     const MembraneSpace& space() const { return space_; }
 
   private:
     const MembraneSpace& space_;
-    bool inextensible_;
+    Constraints constraints_;
 };
 
 // Independent balances of a solution, all relative and zero for the exact solution.

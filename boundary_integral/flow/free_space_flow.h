@@ -17,6 +17,8 @@ class FreeSpaceFlow : public FlowModel {
     int threads_;
 };
 
-FlowBalances flow_balances(const MembraneSpace& space, const MembraneSamples& samples, const FlowSolution& flow);
+// `samples`: the shape that moves with `flow`; that of the operators may be another, close one.
+FlowBalances flow_balances(const MembraneSpace& space, const MobilityOperators& operators,
+                           const MembraneSamples& samples, const FlowSolution& flow);
 
 }  // namespace endoflow::boundary_integral

@@ -14,7 +14,7 @@ namespace endoflow::boundary_integral {
 class NormalMotion : public FlowModel {
   public:
     NormalMotion(const Parameters& parameters, const MembraneSpace& space)
-        : FlowModel(space, false), mobility_(parameters.fluid.normal_mobility) {}
+        : FlowModel(space, {}), mobility_(parameters.fluid.normal_mobility) {}
 
     MobilityOperators operators(const MembraneState& state, const MembraneSamples& samples) const override;
 

@@ -13,6 +13,12 @@ enum Variable : std::size_t { var_r, var_r1, var_r2, var_z1, var_z2, var_c, vari
 using EnergyJet = Jet<variable_count>;
 using EnergyGradient = Gradient<variable_count>;
 
+EnergyJet volume_jet(const CurvePoint& p) {
+    const EnergyJet r = EnergyJet::variable(p.r, var_r);
+    const EnergyJet twice = r * r * EnergyJet::variable(p.z1, var_z1);
+    return combine(-0.5, twice, 0.0, twice);
+}
+
 // `Type` is EnergyJet or EnergyGradient.
 template <class Type>
 struct AreaJets {
@@ -77,7 +83,8 @@ double dot(const std::array<double, variable_count>& a, const std::array<double,
     return sum;
 }
 
-std::array<double, variable_count> apply(const EnergyJet& jet, const std::array<double, variable_count>& partial) {
+std::array<double, variable_count> hessian_times(const EnergyJet& jet,
+                                                 const std::array<double, variable_count>& partial) {
     std::array<double, variable_count> result{};
     for (std::size_t i = 0; i < variable_count; ++i) result[i] = dot(jet.hessian[i], partial);
     return result;
@@ -85,11 +92,11 @@ std::array<double, variable_count> apply(const EnergyJet& jet, const std::array<
 
 void add_second_derivatives(const EnergyJet& jet, double weight, const LocalSlots& slots, EnergyDerivatives& result) {
     for (const Slot& column : slots.curve) {
-        const auto image = apply(jet, column.partial);
+        const auto image = hessian_times(jet, column.partial);
         for (const Slot& row : slots.curve) result.hessian(row.row, column.row) += weight * dot(row.partial, image);
     }
     for (const Slot& column : slots.concentration) {
-        const auto image = apply(jet, column.partial);
+        const auto image = hessian_times(jet, column.partial);
         for (const Slot& row : slots.curve) result.mixed(row.row, column.row) += weight * dot(row.partial, image);
     }
 }
@@ -107,7 +114,7 @@ void add_first_derivatives(const Type& density, double weight, const LocalSlots&
 }  // namespace
 
 EnergyDerivatives bending_energy(const MembraneSpace& space, const MembraneState& state, const BendingModel& model,
-                                 Derivatives wanted, const std::vector<double>& tension) {
+                                 Derivatives wanted, const Multipliers& multipliers) {
     EnergyDerivatives result;
     result.gradient = Eigen::VectorXd::Zero(space.curve_count());
     result.gradient_c = Eigen::VectorXd::Zero(space.axial_count());
@@ -127,7 +134,10 @@ EnergyDerivatives bending_energy(const MembraneSpace& space, const MembraneState
         const AreaJets jets = area_jets<EnergyJet>(p);
         EnergyJet density = energy_density(jets, c, model);
         add_first_derivatives(density, weight, slots, result);
-        if (!tension.empty()) density = combine(1.0, density, tension[i], jets.area);
+        if (multipliers.tension.size() > 0) {
+            density = combine(1.0, density, space.tension_rows[i].evaluate(multipliers.tension), jets.area);
+            density = combine(1.0, density, multipliers.pressure, volume_jet(p));
+        }
         add_second_derivatives(density, weight, slots, result);
     }
     return result;
@@ -172,7 +182,7 @@ Eigen::MatrixXd divergence_variation(const MembraneSpace& space, const MembraneS
                                                               space.axial_rows[i].evaluate(u_z, 1),
                                                               0.0,
                                                               0.0};
-        const auto image = apply(jets.area, direction);
+        const auto image = hessian_times(jets.area, direction);
         const BasisRow& mu = space.tension_rows[i];
         for (const Slot& column : slots.curve) {
             const double variation = space.weight[i] * dot(image, column.partial);
@@ -182,6 +192,33 @@ Eigen::MatrixXd divergence_variation(const MembraneSpace& space, const MembraneS
         }
     }
     return matrix;
+}
+
+Eigen::RowVectorXd volume_gradient(const MembraneSpace& space, const MembraneSamples& samples) {
+    Eigen::RowVectorXd result = Eigen::RowVectorXd::Zero(space.curve_count());
+    for (std::size_t i = 0; i < space.xi.size(); ++i) {
+        const EnergyJet density = volume_jet(samples.curve[i]);
+        const LocalSlots slots = local_slots(space.radial_rows[i], space.axial_rows[i], space.radial_count());
+        for (const Slot& column : slots.curve) {
+            result[column.row] += space.weight[i] * dot(density.gradient, column.partial);
+        }
+    }
+    return result;
+}
+
+Eigen::RowVectorXd volume_variation(const MembraneSpace& space, const MembraneSamples& samples,
+                                    const Eigen::VectorXd& velocity) {
+    Eigen::RowVectorXd result = Eigen::RowVectorXd::Zero(space.curve_count());
+    const Eigen::VectorXd u_r = velocity.head(space.radial_count());
+    const Eigen::VectorXd u_z = velocity.tail(space.axial_count());
+    for (std::size_t i = 0; i < space.xi.size(); ++i) {
+        const LocalSlots slots = local_slots(space.radial_rows[i], space.axial_rows[i], space.radial_count());
+        const std::array<double, variable_count> direction = {space.radial_rows[i].evaluate(u_r, 0), 0.0, 0.0,
+                                                              space.axial_rows[i].evaluate(u_z, 1),  0.0, 0.0};
+        const auto image = hessian_times(volume_jet(samples.curve[i]), direction);
+        for (const Slot& column : slots.curve) result[column.row] += space.weight[i] * dot(image, column.partial);
+    }
+    return result;
 }
 
 Eigen::MatrixXd force_mass_matrix(const MembraneSpace& space, const MembraneSamples& samples) {

@@ -14,16 +14,22 @@ struct EnergyDerivatives {
     double energy = 0.0;         // E/(2 pi) [pN nm]
     Eigen::VectorXd gradient;    // dE/d(r, z coefficients) [pN], curve_count, at fixed c(xi)
     Eigen::VectorXd gradient_c;  // dE/d(c coefficients), axial_count
-    Eigen::MatrixXd hessian;     // curve_count x curve_count, includes + integral of lambda dA if a tension is given
+    Eigen::MatrixXd hessian;     // curve_count x curve_count, with that of the constraints if multipliers are given
     Eigen::MatrixXd mixed;       // d gradient / d c, curve_count x axial_count
 };
 
 enum class Derivatives { first, second };
 
-// E = int 1/2 beta(c) (kappa - C(c))^2 dA (S) With second derivatives, `tension` (values at the Gauss points, or empty)
-// adds the Hessian of int lambda dA at fixed lambda(xi).
+// What holds the membrane together beside its elasticity.
+struct Multipliers {
+    Eigen::VectorXd tension;  // coefficients of lambda, pN/nm; zero without inextensibility
+    double pressure = 0.0;    // of a closed membrane's volume, inside less outside with the sign of a load, pN/nm^2
+};
+
+// E = int 1/2 beta(c) (kappa - C(c))^2 dA (S). With second derivatives, multipliers add the Hessian of
+// int lambda dA + pressure V at fixed lambda(xi).
 EnergyDerivatives bending_energy(const MembraneSpace& space, const MembraneState& state, const BendingModel& model,
-                                 Derivatives wanted, const std::vector<double>& tension = {});
+                                 Derivatives wanted, const Multipliers& multipliers = {});
 
 // Energy per area at the rim, 1/2 beta (kappa - C)^2 [pN/nm]: what inflowing membrane brings with it.
 double energy_density_at_rim(const MembraneSpace& space, const MembraneState& state, const BendingModel& model);
@@ -35,6 +41,12 @@ Eigen::MatrixXd divergence_matrix(const MembraneSpace& space, const MembraneSamp
 // d(C u)/d(coefficients) at fixed u; tension x curve_count.
 Eigen::MatrixXd divergence_variation(const MembraneSpace& space, const MembraneSamples& samples,
                                      const Eigen::VectorXd& velocity);
+
+// The volume V/(2 pi) = - int 1/2 r^2 z' dxi inside a closed membrane: its gradient int w.n dA, curve_count, and the
+// gradient's variation times a velocity.
+Eigen::RowVectorXd volume_gradient(const MembraneSpace& space, const MembraneSamples& samples);
+Eigen::RowVectorXd volume_variation(const MembraneSpace& space, const MembraneSamples& samples,
+                                    const Eigen::VectorXd& velocity);
 
 // N(i, j) = int w_i . f_j dA between velocities (curve_count) and force densities (force_count).
 Eigen::MatrixXd force_mass_matrix(const MembraneSpace& space, const MembraneSamples& samples);

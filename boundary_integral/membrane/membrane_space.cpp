@@ -60,7 +60,7 @@ CurvePoint curve_point(const BasisRow& radial, const BasisRow& axial, const Memb
     p.z = axial.evaluate(state.z, 0);
     p.z1 = axial.evaluate(state.z, 1);
     p.z2 = axial.evaluate(state.z, 2);
-    p.g = std::hypot(p.r1, p.z1);
+    p.g = std::sqrt(p.r1 * p.r1 + p.z1 * p.z1);
     p.normal_r = -p.z1 / p.g;
     p.normal_z = p.r1 / p.g;
     p.meridional_curvature = -(p.r1 * p.z2 - p.z1 * p.r2) / (p.g * p.g * p.g);

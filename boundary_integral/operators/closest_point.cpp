@@ -5,13 +5,11 @@
 
 namespace endoflow::boundary_integral {
 
-namespace {
-
-double distance(const CurvePoint& p, const Target& target) {
-    return std::hypot(p.r - target.r, p.z - target.z);
+double squared_distance(const CurvePoint& p, const Target& target) {
+    const double dr = p.r - target.r;
+    const double dz = p.z - target.z;
+    return dr * dr + dz * dz;
 }
-
-}  // namespace
 
 ClosestPoint closest_on_element(const MembraneSpace& space, const MembraneState& state, Index element,
                                 const Target& target, double guess) {
@@ -34,8 +32,12 @@ ClosestPoint closest_on_element(const MembraneSpace& space, const MembraneState&
 ClosestPoint closest_on_membrane(const MembraneSpace& space, const MembraneState& state, const MembraneSamples& samples,
                                  const Target& target) {
     std::size_t nearest = 0;
+    double smallest = squared_distance(samples.curve[0], target);
     for (std::size_t i = 1; i < samples.curve.size(); ++i) {
-        if (distance(samples.curve[i], target) < distance(samples.curve[nearest], target)) nearest = i;
+        const double distance = squared_distance(samples.curve[i], target);
+        if (distance >= smallest) continue;
+        smallest = distance;
+        nearest = i;
     }
     const Index own = static_cast<Index>(nearest) / space.points_per_element();
     ClosestPoint best = closest_on_element(space, state, own, target, space.xi[nearest]);
@@ -44,7 +46,7 @@ ClosestPoint closest_on_membrane(const MembraneSpace& space, const MembraneState
         if (element < 0 || element >= space.elements()) continue;
         const double shared_end = static_cast<double>(std::max(own, element)) * space.element_width();
         const ClosestPoint other = closest_on_element(space, state, element, target, shared_end);
-        if (distance(other.point, target) < distance(best.point, target)) best = other;
+        if (squared_distance(other.point, target) < squared_distance(best.point, target)) best = other;
     }
     return best;
 }

@@ -7,6 +7,8 @@
 
 namespace endoflow::boundary_integral {
 
+double squared_distance(const CurvePoint& p, const Target& target);  // nm^2
+
 struct ClosestPoint {
     double xi;
     CurvePoint point;

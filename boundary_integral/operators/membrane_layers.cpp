@@ -15,12 +15,6 @@ std::size_t at(Index i) {
     return static_cast<std::size_t>(i);
 }
 
-double squared_distance(const CurvePoint& p, const Target& target) {
-    const double dr = p.r - target.r;
-    const double dz = p.z - target.z;
-    return dr * dr + dz * dz;
-}
-
 // What all targets share.
 struct Sources {
     const MembraneSpace& space;

@@ -137,7 +137,7 @@ TEST_CASE("a vesicle in free space keeps area and volume and has no net force", 
     CHECK(shape.mass == Approx(shape.area).epsilon(1e-12));  // coated everywhere
     CHECK(shape.height == Approx(2 * b).epsilon(1e-9));
     const Evaluation e = dynamics.evaluate(y);
-    const FlowBalances balances = flow_balances(dynamics.space(), e.samples, e.flow);
+    const FlowBalances balances = flow_balances(dynamics.space(), *e.operators, e.samples, e.flow);
     CHECK(balances.net_flux < 1e-12);
     CHECK(balances.area < 1e-9);
     CHECK(balances.force < 1e-12);

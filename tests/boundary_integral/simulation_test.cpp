@@ -233,6 +233,7 @@ TEST_CASE("a prolate vesicle relaxes at constant area and volume", "[run]") {
     parameters.molecules.patch_radius = 1e4;  // coated everywhere
     parameters.membrane.bending_stiffness_coated = 100;
     parameters.membrane.spontaneous_curvature = 0;
+    parameters.fluid.viscosity_intracellular = GENERATE(1e-3, 1e-2);
     parameters.output.shape_interval = 5;
     CHECK(run(parameters, scratch.path) == ExitReason::done);
     const Table history = read_table(scratch.path / "history.csv");
@@ -243,7 +244,12 @@ TEST_CASE("a prolate vesicle relaxes at constant area and volume", "[run]") {
         CHECK(row.at("volume_extracellular_nm3") == Approx(volume).epsilon(1e-6));
         CHECK(row.count("neck_radius_nm") == 0);
     }
-    check_never_rising_energy(history);
+    for (std::size_t i = 1; i < history.size(); ++i) {
+        const double before = history[i - 1].at("bending_energy_pN_nm"), after = history[i].at("bending_energy_pN_nm");
+        const double stretch = history[i].at("membrane_area_nm2") / history[i - 1].at("membrane_area_nm2") - 1;
+        // Near equilibrium what is left of the energy's change is the tension times the area's drift.
+        CHECK(after < before * (1 + 1e-12 + 5 * std::abs(stretch)));
+    }
     CHECK(history.back().at("bending_energy_pN_nm") < 0.999 * history.front().at("bending_energy_pN_nm"));
 }
 
