@@ -17,7 +17,7 @@ from studies import StudyTest
 OTHER_KEYS = {
     "membrane": {"constitutive_law": "linear", "inextensible": True},
     "molecules": {"diffusivity": 16.0},
-    "phase_field": {"scheme": "paper", "max_step": 0.002},
+    "phase_field": {"scheme": "paper", "max_step": 0.002, "profile_mobility": 600.0},
     "output": {"field_interval": 0.5},
 }
 
