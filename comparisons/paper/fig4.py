@@ -1,5 +1,7 @@
 """Fig. 4: the membrane with the fluids and without them (geometric evolution)."""
 
+import numpy as np
+
 import style
 
 from .histories import history_figure
@@ -30,6 +32,18 @@ def lowest_apex(run):
     return float(min((shape.z - shape.z[-1]).min() for shape in run.shapes))
 
 
+def pinch_off_time(run):
+    """Time (µs) at which the neck has closed: the run ended there, or went on with what is left without a neck; or None."""
+    budding = run.event_time("budding")
+    if budding is None:
+        return None
+    time, neck = run.history["time_us"], run.history["neck_radius_nm"]
+    without = (time > budding) & np.isnan(neck)
+    if without.any():
+        return float(time[without][0])
+    return end_of(run) if run.record["exit_reason"] == "neck_closed" else None
+
+
 def row(name, engine, run):
     """One row of the table."""
     if not is_run(run):
@@ -40,11 +54,20 @@ def row(name, engine, run):
         "state": run.record["exit_reason"],
         "end_us": end_of(run),
         "budding_time_us": run.event_time("budding"),
+        "pinch_off_time_us": pinch_off_time(run),
         "lowest_point_below_rim_nm": lowest_apex(run),
         "final_neck_radius_nm": final_value(run, "neck_radius_nm"),
         "final_height_nm": final_value(run, "bud_height_nm"),
         "final_area_nm2": final_value(run, "membrane_area_nm2"),
     }
+
+
+def pinch_off_words(row):
+    """When a run pinched off, or up to when it did not."""
+    if row["end_us"] is None:
+        return row["state"]
+    time = row["pinch_off_time_us"]
+    return text(time) if time is not None else f"none up to {text(row['end_us'])}"
 
 
 def result(runs, quick):
@@ -58,14 +81,14 @@ def result(runs, quick):
         found = {one["engine"]: one.get(column) for one in rows if one["dynamics"] == name}
         return {engine: text(found[engine], digits) for engine in engines}
 
-    def ends(name):
+    def pinch_off(name):
         found = {one["engine"]: one for one in rows if one["dynamics"] == name}
-        return {e: f"{text(found[e].get('end_us'))} ({found[e]['state']})" for e in engines}
+        return {engine: pinch_off_words(found[engine]) for engine in engines}
 
     printed = [
-        Printed("end without flow, µs", "pinches off after 14.02, before 16.98", ends("geometric")),
+        Printed("pinch-off without flow, µs", "after 14.02, before 16.98", pinch_off("geometric")),
         Printed("neck radius 5 nm without flow, µs", "–", of("geometric", "budding_time_us")),
-        Printed("end with flow, µs", "no pinch-off: stationary neck", ends("standard")),
+        Printed("pinch-off with flow, µs", "none: stationary neck", pinch_off("standard")),
         Printed("neck radius 5 nm with flow, µs", "–", of("standard", "budding_time_us")),
         Printed(
             "lowest point below the rim without flow, nm",

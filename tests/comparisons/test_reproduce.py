@@ -5,12 +5,15 @@ import json
 import re
 import unittest
 from dataclasses import replace
+from pathlib import Path
 
 import locations  # noqa: F401
 import numpy as np
+import endoflow
 import synthetic
 from endoflow.shapes import Shape
 from paper import patch_sweep
+from paper.fig4 import pinch_off_time
 from studies import StudyTest
 
 #: Keys of cases/*.toml and of the items' settings that synthetic.parameters lacks, and their values.
@@ -108,6 +111,26 @@ class Reproduce(StudyTest):
         self.assertEqual(self.reproduce("fig2").returncode, 2)
         self.assertEqual(self.reproduce("fig3", "--quick", "--full").returncode, 2)
         self.assert_one_line(self.reproduce("fig3", "--set", "epsilon=1"), 2, "--set epsilon: it must read section.key=value")
+
+
+class PinchOff(unittest.TestCase):
+    """When a neck has closed, from a run's history."""
+
+    def run_with(self, neck, budding, reason="done"):
+        history = {"time_us": np.arange(len(neck), dtype=float), "neck_radius_nm": np.array(neck)}
+        events = {} if budding is None else {"budding": {"time_us": budding}}
+        return endoflow.Run(Path("."), {"events": events, "exit_reason": reason}, {}, history, [])
+
+    def test_times(self):
+        nan = np.nan
+        for neck, budding, reason, wanted in (
+            ([nan, 9, 6, 4, 2, nan, nan], 2.5, "done", 5.0),  # the run went on with the membrane that is left
+            ([nan, 9, 6, 4, 2], 2.5, "neck_closed", 4.0),
+            ([nan, 9, 6, 4, 2], 2.5, "done", None),  # still open
+            ([nan, 9, nan, nan], None, "done", None),  # the bud went back
+        ):
+            with self.subTest(neck=neck, reason=reason):
+                self.assertEqual(pinch_off_time(self.run_with(neck, budding, reason)), wanted)
 
 
 class Morphology(unittest.TestCase):
