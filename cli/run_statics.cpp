@@ -12,11 +12,13 @@ namespace endoflow::cli {
 namespace {
 
 int run(int argc, char** argv) {
-    CLI::App app("Stationary shape of the membrane: no flow, no pressure difference, no tension at the rim",
-                 "endoflow statics");
+    CLI::App app(
+        "Stationary shape of the membrane in the box: no flow, no pressure difference, no tension at the rim; or "
+        "of a vesicle with the area and volume of the case's spheroid (domain.kind = \"free-space\")",
+        "endoflow statics");
     std::filesystem::path case_file, directory;
     std::vector<std::string> overrides;
-    std::string continuation;
+    std::string continuation, family;
     statics::Request request;
     app.add_option("CASE", case_file, "case file (TOML)")->required();
     app.add_option("-o,--output", directory, "directory of the result [out/CASE/statics]");
@@ -26,14 +28,16 @@ int run(int argc, char** argv) {
                    "section.key=END: all stationary shapes from the case's value to END");
     app.add_flag("--disc-mass", request.disc_mass,
                  "the molecules' mass is π patch_radius², not that of the initial profile, which is a little larger");
+    app.add_option("--family", family, "of a vesicle: prolate, oblate or stomatocyte [as the case's spheroid is]");
     if (!parse(app, argc, argv)) return 0;
+    if (!family.empty()) request.family = statics::parse_family(family);
     const Parameters parameters = read_case(case_file, overrides);
     statics::require_stationary_model(parameters, request);
     if (!continuation.empty()) request.continuation = statics::parse_continuation(continuation, parameters);
     if (directory.empty()) directory = std::filesystem::path("out") / case_file.stem() / "statics";
 
     install_signal_handlers();
-    RunOutput output(parameters, statics::identity(), directory, StartMode::fresh);
+    RunOutput output(parameters, statics::identity(parameters), directory, StartMode::fresh);
     return run_to_the_end(output, [&] { return statics::simulate(parameters, request, output); });
 }
 

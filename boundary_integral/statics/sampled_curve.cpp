@@ -4,6 +4,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "boundary_integral/statics/shape_equations.h"
 
@@ -11,16 +12,36 @@ namespace endoflow::statics {
 
 namespace {
 
-/// Arc length as a function of u = √x; smooth also on the axis, where s is not smooth in x.
+static_assert(state::r_squared == vesicle::r_squared, "arc length is that of either kind of solution");
+
+/// A coordinate u in [0, 1] in which curves are smooth up to their ends on the axis, where they are not in x =
+/// a/a(end).
+struct SmoothCoordinate {
+    double (*x)(double u);
+    double (*rate)(double u);  // dx/du
+    double (*u)(double x);
+};
+
+constexpr double pi = std::numbers::pi;
+constexpr SmoothCoordinate from_axis{[](double u) { return u * u; }, [](double u) { return 2 * u; },
+                                     [](double x) { return std::sqrt(x); }};
+constexpr SmoothCoordinate from_pole_to_pole{[](double u) { return std::pow(std::sin(0.5 * pi * u), 2); },
+                                             [](double u) { return 0.5 * pi * std::sin(pi * u); },
+                                             [](double x) { return 2 / pi * std::asin(std::sqrt(x)); }};
+
+/// Arc length as a function of the smooth coordinate.
 struct ArcLength {
     const PiecewiseSolution& solution;
     const GaussRule& rule;
-    std::vector<double> u, s;  // a fine table, s in nm
+    double label;  // a at x = 1, nm²
+    SmoothCoordinate smooth;
+    std::vector<double> u{0}, s{0};  // a fine table, s in nm
 
-    ArcLength(const PiecewiseSolution& shape, const GaussRule& gauss) : solution(shape), rule(gauss), u{0}, s{0} {
+    ArcLength(const PiecewiseSolution& shape, const GaussRule& gauss, double whole_label, SmoothCoordinate coordinate)
+        : solution(shape), rule(gauss), label(whole_label), smooth(coordinate) {
         constexpr int parts = 8;
         for (std::size_t i = 0; i < shape.elements(); ++i) {
-            const double first = std::sqrt(shape.mesh[i]), last = std::sqrt(shape.mesh[i + 1]);
+            const double first = smooth.u(shape.mesh[i]), last = smooth.u(shape.mesh[i + 1]);
             for (int part = 1; part <= parts; ++part) {
                 const double next = part == parts ? last : first + (last - first) * part / parts;
                 s.push_back(s.back() + between(u.back(), next));
@@ -29,11 +50,11 @@ struct ArcLength {
         }
     }
 
-    /// ∫ ds with ds = da/r = 2 E u du/r.
+    /// ∫ ds with ds = da/r.
     [[nodiscard]] double between(double first, double last) const {
         const auto integrand = [&](double at) {
-            const double y = evaluate(solution, rule, at * at)(state::r_squared);
-            return 2 * solution.globals(global::area) * at / std::sqrt(y);
+            const double y = evaluate(solution, rule, smooth.x(at))(state::r_squared);
+            return label * smooth.rate(at) / std::sqrt(y);
         };
         return boost::math::quadrature::gauss<double, 7>::integrate(integrand, first, last);
     }
@@ -45,29 +66,61 @@ struct ArcLength {
         const double at = u[i] + (u[i + 1] - u[i]) * (wanted - s[i]) / (s[i + 1] - s[i]);
         return {at, s[i] + between(u[i], at)};
     }
+
+    /// Calls take(x, s) at points of nearly equal distance, both ends among them.
+    template <class Take>
+    void at_even_points(std::size_t points, const Take& take) const {
+        for (std::size_t i = 0; i < points; ++i) {
+            const double wanted = s.back() * static_cast<double>(i) / static_cast<double>(points - 1);
+            const auto [at, length] = i + 1 == points ? std::pair{1.0, s.back()} : near(wanted);
+            take(smooth.x(at), length);
+        }
+    }
 };
+
+void set_at_rest(MembraneCurve& curve) {
+    curve.u_r.assign(curve.s.size(), 0);
+    curve.u_z.assign(curve.s.size(), 0);
+}
 
 }  // namespace
 
 MembraneCurve sampled_curve(const Parameters& parameters, const PiecewiseSolution& solution, const GaussRule& rule,
                             std::size_t points) {
     const BendingModel bending(parameters.membrane);
-    const ArcLength arc(solution, rule);
+    const double label = solution.globals(global::area);
     MembraneCurve curve;
-    for (std::size_t i = 0; i < points; ++i) {
-        const double wanted = arc.s.back() * static_cast<double>(i) / static_cast<double>(points - 1);
-        const auto [u, s] = i + 1 == points ? std::pair{1.0, arc.s.back()} : arc.near(wanted);
-        const PointOfShape point = point_of_shape(bending, parameters.molecules, solution.globals(global::area) * u * u,
-                                                  evaluate(solution, rule, u * u));
+    ArcLength(solution, rule, label, from_axis).at_even_points(points, [&](double x, double s) {
+        const PointOfShape point =
+            point_of_shape(bending, parameters.molecules, label * x, evaluate(solution, rule, x));
         curve.s.push_back(s);
-        curve.r.push_back(i == 0 ? 0 : point.r);
+        curve.r.push_back(x > 0 ? point.r : 0);
         curve.z.push_back(point.z);
         curve.c.push_back(point.c);
         curve.lambda.push_back(point.tension);
         curve.kappa.push_back(point.total_curvature);
-    }
-    curve.u_r.assign(points, 0);
-    curve.u_z.assign(points, 0);
+    });
+    set_at_rest(curve);
+    return curve;
+}
+
+MembraneCurve sampled_curve(const VesicleState& state, const GaussRule& rule, double centre, double concentration,
+                            std::size_t points) {
+    const PiecewiseSolution& solution = state.solution;
+    const double north = centre - 0.5 * solution.nodes(vesicle::height, solution.nodes.cols() - 1);
+    const double tension = state.tension();
+    MembraneCurve curve;
+    ArcLength(solution, rule, state.membrane.area / (2 * pi), from_pole_to_pole)
+        .at_even_points(points, [&](double x, double s) {
+            const Eigen::VectorXd y = evaluate(solution, rule, x);
+            curve.s.push_back(s);
+            curve.r.push_back(x > 0 && x < 1 ? std::sqrt(std::max(y(vesicle::r_squared), 0.0)) : 0);
+            curve.z.push_back(north + y(vesicle::height));
+            curve.c.push_back(concentration);
+            curve.lambda.push_back(tension);
+            curve.kappa.push_back(state.membrane.spontaneous_curvature + y(vesicle::moment) / state.membrane.stiffness);
+        });
+    set_at_rest(curve);
     return curve;
 }
 

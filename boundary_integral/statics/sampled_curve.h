@@ -1,6 +1,7 @@
 #pragma once
 
 #include "boundary_integral/statics/piecewise_solution.h"
+#include "boundary_integral/statics/vesicle_state.h"
 #include "shared/geometry/membrane_curve.h"
 #include "shared/parameters/parameters.h"
 
@@ -10,6 +11,10 @@ namespace endoflow::statics {
 /// With 1000 points, what is measured on its splines is accurate to about 1e-9.
 [[nodiscard]] MembraneCurve sampled_curve(const Parameters& parameters, const PiecewiseSolution& solution,
                                           const GaussRule& rule, std::size_t points);
+
+/// The same of a vesicle, from pole to pole, its poles at equal distances from z = `centre`; evenly coated.
+[[nodiscard]] MembraneCurve sampled_curve(const VesicleState& state, const GaussRule& rule, double centre,
+                                          double concentration, std::size_t points);
 
 /// The narrowest place between two wider ones among the mesh points, nm; infinite when there is none.
 [[nodiscard]] double narrowest_radius(const PiecewiseSolution& solution);

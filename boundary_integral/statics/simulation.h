@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "boundary_integral/statics/vesicle_state.h"
 #include "shared/output/run_output.h"
 
 namespace endoflow::statics {
@@ -14,17 +15,22 @@ struct Request {
         double end;
     };
     std::optional<Continuation> continuation;
-    bool disc_mass = false;  // see with_disc_mass()
+    bool disc_mass = false;               // see with_disc_mass()
+    std::optional<VesicleFamily> family;  // of a vesicle, instead of that of the case's spheroid
 };
 
 /// "molecules.patch_radius=30" as a continuation. Throws InputError: unknown key, one without influence, bad value.
 [[nodiscard]] Request::Continuation parse_continuation(const std::string& text, const Parameters& parameters);
 
-/// Throws InputError when the case has a membrane whose statics are not these: an extensible one; or a patch
-/// that is too small for the request.
+/// "prolate", "oblate" or "stomatocyte". Throws InputError for anything else.
+[[nodiscard]] VesicleFamily parse_family(const std::string& text);
+
+/// Throws InputError when the case has a membrane whose statics are not these: an extensible one, a vesicle with a
+/// patch; a patch that is too small for the request; or when the request does not go with the case's domain.kind.
 void require_stationary_model(const Parameters& parameters, const Request& request);
 
-[[nodiscard]] EngineIdentity identity();
+/// The columns of history.csv depend on the case's domain.kind.
+[[nodiscard]] EngineIdentity identity(const Parameters& parameters);
 
 /// Writes the case's stationary shape or, with a continuation, the branch through it: one row of history.csv and one
 /// shape for each point, whose `time` is its number. Throws SolverError "no-stationary-state".

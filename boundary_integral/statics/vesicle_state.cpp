@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "boundary_integral/statics/spheroid.h"
 #include "shared/support/error.h"
 
 namespace endoflow::statics {
@@ -19,43 +19,18 @@ constexpr double pi = std::numbers::pi;
 /// Where families are entered: close enough to the sphere for a spheroid, far enough for Newton's method.
 constexpr double first_reduced_volume = 0.97;
 
-/// (r, z) = (equator sin t, polar cos t).
-struct Spheroid {
-    double equator, polar;
-
-    [[nodiscard]] double metric(double t) const { return std::hypot(equator * std::cos(t), polar * std::sin(t)); }
-    /// Area between the north pole and t over 2π.
-    [[nodiscard]] double label(double t) const {
-        const auto density = [&](double u) { return equator * std::sin(u) * metric(u); };
-        return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(density, 0.0, t, 8, 1e-13);
-    }
-    [[nodiscard]] double parameter_of(double label_fraction) const {
-        const double wanted = label_fraction * label(pi);
-        if (label_fraction <= 0) return 0;
-        if (label_fraction >= 1) return pi;
-        std::uintmax_t evaluations = 60;
-        const auto bracket = boost::math::tools::toms748_solve(
-            [&](double t) { return label(t) - wanted; }, 0.0, pi, -wanted, label(pi) - wanted,
-            boost::math::tools::eps_tolerance<double>(45), evaluations);
-        return 0.5 * (bracket.first + bracket.second);
-    }
-};
-
-double reduced_volume_of(const Spheroid& spheroid) {
-    const double area = 2 * pi * spheroid.label(pi);
-    return 3 * std::sqrt(4 * pi) * (4 * pi / 3 * spheroid.equator * spheroid.equator * spheroid.polar) /
-           std::pow(area, 1.5);
-}
-
 Spheroid spheroid_of(const ClosedMembrane& membrane, VesicleFamily family) {
     const double wanted = membrane.reduced_volume();
-    const auto excess = [&](double log_ratio) { return reduced_volume_of({1, std::exp(log_ratio)}) - wanted; };
+    const auto excess = [&](double log_ratio) {
+        const Spheroid shape{1, std::exp(log_ratio)};
+        return ClosedMembrane{1, 0, shape.area(), shape.volume()}.reduced_volume() - wanted;
+    };
     const double end = family == VesicleFamily::prolate ? 5 : -5;
     std::uintmax_t evaluations = 60;
     const auto bracket = boost::math::tools::toms748_solve(excess, std::min(0.0, end), std::max(0.0, end),
                                                            boost::math::tools::eps_tolerance<double>(40), evaluations);
     const Spheroid shape{1, std::exp(0.5 * (bracket.first + bracket.second))};
-    const double scale = std::sqrt(membrane.area / (2 * pi * shape.label(pi)));
+    const double scale = std::sqrt(membrane.area / shape.area());
     return {scale * shape.equator, scale * shape.polar};
 }
 

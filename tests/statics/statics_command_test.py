@@ -90,6 +90,58 @@ class Statics(unittest.TestCase):
                 self.assert_refused(result, 2, words)
                 self.assertFalse(self.output.exists())
 
+    def vesicle(self, *arguments):
+        self.case.write_text(
+            '[domain]\nkind = "free-space"\n[molecules]\npatch_radius = 1e4\n'
+            "[membrane]\nbending_stiffness_coated = 100\nspontaneous_curvature = 0\n"
+        )
+        return endoflow("statics", self.case, "-o", self.output, *arguments)
+
+    def test_a_vesicle(self):
+        result = self.vesicle()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        (row,) = self.rows()
+        # A spheroid with axes of 60 and 40 nm.
+        self.assertAlmostEqual(float(row["volume_extracellular_nm3"]) / (4 / 3 * np.pi * 40**2 * 60), 1, delta=1e-8)
+        self.assertAlmostEqual(float(row["reduced_energy"]) * 8 * np.pi * 50 / float(row["bending_energy_pN_nm"]), 1,
+                               delta=1e-8)  # the state's own integral, and the one over the written curve
+        self.assertEqual(row["neck_radius_nm"], "")
+        with h5py.File(self.output / "shapes.h5") as file:
+            (shape,) = file["shapes"].values()
+            self.assertEqual((shape["r"][0], shape["r"][-1]), (0, 0))
+            self.assertAlmostEqual(shape["z"][0] + shape["z"][-1], 2 * 80, delta=1e-9)
+            self.assertEqual(np.ptp(shape["lambda"][:]), 0)
+            self.assertLess(shape["kappa"][500], shape["kappa"][0])  # a prolate is more curved at its poles
+
+    def test_a_branch_of_vesicles(self):
+        result = self.vesicle("--continue-in", "domain.spheroid_polar_axis=120")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = self.rows()
+        volumes = [float(row["reduced_volume"]) for row in rows]
+        self.assertEqual(volumes, sorted(volumes, reverse=True))
+        energies = [float(row["reduced_energy"]) for row in rows]
+        self.assertEqual(energies, sorted(energies))
+
+    def test_a_stomatocyte(self):
+        result = self.vesicle("--family", "stomatocyte", "--set", "domain.spheroid_polar_axis=11")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        (row,) = self.rows()
+        self.assertLess(float(row["reduced_volume"]), 0.66)
+        self.assertAlmostEqual(float(row["reduced_energy"]), 1.98, delta=0.02)  # docs/statics.md
+
+    def test_bad_vesicles_write_nothing(self):
+        for arguments, word in ((("--set", "molecules.patch_radius=36", "--set", "membrane.spontaneous_curvature=0.07"),
+                                 "patch_radius"),
+                                (("--set", "domain.spheroid_polar_axis=40"), "sphere"),
+                                (("--family", "pear"), "prolate, oblate or stomatocyte"),
+                                (("--disc-mass",), "--disc-mass"),
+                                (("--continue-in", "molecules.patch_radius=30"), "can be continued in")):
+            with self.subTest(arguments):
+                self.assert_refused(self.vesicle(*arguments), 2, word)
+                self.assertFalse(self.output.exists())
+        self.case.write_text("")
+        self.assert_refused(endoflow("statics", self.case, "-o", self.output, "--family", "oblate"), 2, "free-space")
+
     def test_an_extensible_membrane_is_refused(self):
         result = endoflow("statics", self.case, "-o", self.output, "--set", "membrane.inextensible=false")
         self.assert_refused(result, 2, "membrane.inextensible")

@@ -1,0 +1,52 @@
+#include "boundary_integral/statics/spheroid.h"
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace endoflow::statics {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+template <class Function>
+double integral(const Function& function, double end) {
+    return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(function, 0.0, end, 8, 1e-13);
+}
+
+}  // namespace
+
+double Spheroid::metric(double t) const {
+    return std::hypot(equator * std::cos(t), polar * std::sin(t));
+}
+
+double Spheroid::label(double t) const {
+    return integral([this](double u) { return equator * std::sin(u) * metric(u); }, t);
+}
+
+double Spheroid::parameter_of(double label_fraction) const {
+    if (label_fraction <= 0) return 0;
+    if (label_fraction >= 1) return pi;
+    const double whole = label(pi), wanted = label_fraction * whole;
+    std::uintmax_t evaluations = 60;
+    const auto bracket =
+        boost::math::tools::toms748_solve([&](double t) { return label(t) - wanted; }, 0.0, pi, -wanted, whole - wanted,
+                                          boost::math::tools::eps_tolerance<double>(45), evaluations);
+    return 0.5 * (bracket.first + bracket.second);
+}
+
+double Spheroid::area() const {
+    return 2 * pi * label(pi);
+}
+
+double Spheroid::volume() const {
+    return 4 * pi / 3 * equator * equator * polar;
+}
+
+double Spheroid::length() const {
+    return integral([this](double u) { return metric(u); }, pi);
+}
+
+}  // namespace endoflow::statics

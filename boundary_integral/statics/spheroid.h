@@ -1,0 +1,21 @@
+#pragma once
+
+namespace endoflow::statics {
+
+/// (r, z) = (equator sin t, polar cos t), 0 <= t <= π, nm.
+struct Spheroid {
+    double equator, polar;
+
+    /// Speed of the parametrisation |d(r, z)/dt|.
+    [[nodiscard]] double metric(double t) const;
+    /// a = A/2π between the north pole and t, nm².
+    [[nodiscard]] double label(double t) const;
+    /// t of the parallel above which a given fraction of the area lies.
+    [[nodiscard]] double parameter_of(double label_fraction) const;
+    [[nodiscard]] double area() const;
+    [[nodiscard]] double volume() const;
+    /// Arc length from pole to pole.
+    [[nodiscard]] double length() const;
+};
+
+}  // namespace endoflow::statics

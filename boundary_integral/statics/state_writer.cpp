@@ -1,0 +1,67 @@
+#include "boundary_integral/statics/state_writer.h"
+
+#include <fmt/format.h>
+
+#include "shared/geometry/observables.h"
+
+namespace endoflow::statics {
+
+using Json = nlohmann::ordered_json;
+
+Json StateWriter::write(const MembraneCurve& curve, const BendingModel& bending, std::vector<double> extra) {
+    const Observables seen = measure(curve, bending);
+    HistoryRow row;
+    row.time_us = count_;
+    row.step_us = count_ == 0 ? 0 : 1;
+    if (seen.neck) {
+        row.neck_radius_nm = seen.neck->radius;
+        row.bud_diameter_nm = seen.neck->lateral_diameter;
+    }
+    row.bud_height_nm = seen.bud_height;
+    row.membrane_area_nm2 = seen.membrane_area;
+    row.bending_energy_pN_nm = seen.bending_energy;
+    row.molecule_mass_nm2 = seen.molecule_mass;
+    row.volume_extracellular_nm3 = seen.extracellular_volume;
+    row.extra = std::move(extra);
+    output_.record_step(row);
+    output_.write_shape(count_, curve);
+    ++count_;
+    Json figures = {{"membrane_area_nm2", seen.membrane_area},
+                    {"curve_length_nm", curve.s.back()},
+                    {"bending_energy_pN_nm", seen.bending_energy}};
+    if (seen.neck) {
+        figures["neck_radius_nm"] = seen.neck->radius;
+        figures["bud_diameter_nm"] = seen.neck->lateral_diameter;
+    }
+    return figures;
+}
+
+double number_of(const Parameters& parameters, const std::string& key) {
+    return std::get<double>(find_parameter(key)->get(parameters));
+}
+
+void print_figures(const Json& figures) {
+    for (const auto& [name, value] : figures.items()) fmt::print("  {:<28} {:.9g}\n", name, value.get<double>());
+}
+
+Json describe_folds(const std::vector<Fold>& folds, const std::string& key) {
+    Json list = Json::array();
+    for (const Fold& fold : folds) list.push_back({{"parameter", key}, {"value", fold.parameter()}});
+    return list;
+}
+
+void describe_branch(const StateWriter& writer, const std::string& key, double begin, const Branch& branch,
+                     const std::string& ended_because) {
+    const std::string& unit = find_parameter(key)->unit;
+    const double end = branch.last.solution.parameter;
+    writer.output().note("branch", {{"parameter", key},
+                                    {"begin", begin},
+                                    {"end", end},
+                                    {"ended_because", ended_because},
+                                    {"points", writer.count()},
+                                    {"folds", describe_folds(branch.folds, key)}});
+    for (const Fold& fold : branch.folds) fmt::print("fold at {} = {:.9g} {}\n", key, fold.parameter(), unit);
+    fmt::print("branch in {}: {} points, {} at {:.9g} {}\n", key, writer.count(), ended_because, end, unit);
+}
+
+}  // namespace endoflow::statics

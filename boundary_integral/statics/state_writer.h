@@ -1,0 +1,43 @@
+#pragma once
+
+#include "boundary_integral/statics/continuation.h"
+#include "shared/geometry/membrane_curve.h"
+#include "shared/model/bending_model.h"
+#include "shared/output/run_output.h"
+#include "shared/parameters/parameter_table.h"
+
+namespace endoflow::statics {
+
+/// Points of the curves in shapes.h5.
+inline constexpr std::size_t curve_points = 1001;
+
+/// Stationary shapes in a run's directory: one row of history.csv and one shape for each, numbered by their `time`.
+class StateWriter {
+  public:
+    explicit StateWriter(RunOutput& output) : output_(output) {}
+
+    [[nodiscard]] RunOutput& output() const { return output_; }
+    [[nodiscard]] int count() const { return count_; }
+
+    /// Writes one shape, `extra` going to the engine's own columns; returns what can be measured on it.
+    nlohmann::ordered_json write(const MembraneCurve& curve, const BendingModel& bending, std::vector<double> extra);
+
+  private:
+    RunOutput& output_;
+    int count_ = 0;
+};
+
+/// The number that a parameter called "section.key" has.
+[[nodiscard]] double number_of(const Parameters& parameters, const std::string& key);
+
+/// Prints what write() returned.
+void print_figures(const nlohmann::ordered_json& figures);
+
+/// [{parameter, value}]
+[[nodiscard]] nlohmann::ordered_json describe_folds(const std::vector<Fold>& folds, const std::string& key);
+
+/// Notes and prints where a branch in a parameter begins, ends and folds.
+void describe_branch(const StateWriter& writer, const std::string& key, double begin, const Branch& branch,
+                     const std::string& ended_because);
+
+}  // namespace endoflow::statics

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "boundary_integral/statics/vesicle_state.h"
+#include "shared/parameters/parameters.h"
+
+namespace endoflow::statics {
+
+/// A case with domain.kind = free_space as a problem of statics.
+struct VesicleCase {
+    ClosedMembrane membrane;   // area and volume are those of the case's spheroid
+    VesicleFamily family;      // prolate or oblate as the spheroid is
+    double concentration = 0;  // c, the same everywhere
+};
+
+/// Throws InputError when the membrane is not the same everywhere, i.e. the patch covers a part of it and makes a
+/// difference, or when the spheroid is a sphere, which is its own only shape.
+[[nodiscard]] VesicleCase vesicle_case(const Parameters& parameters);
+
+}  // namespace endoflow::statics

@@ -1,0 +1,83 @@
+#include "boundary_integral/statics/vesicle_simulation.h"
+
+#include <numbers>
+
+#include "boundary_integral/statics/sampled_curve.h"
+#include "boundary_integral/statics/state_writer.h"
+#include "boundary_integral/statics/vesicle_case.h"
+#include "shared/support/error.h"
+#include "shared/support/interruption.h"
+
+namespace endoflow::statics {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Writes a vesicle of the case; `place` says where on a branch it lies.
+Json write_vesicle(StateWriter& writer, const Parameters& parameters, const VesicleState& state,
+                   const BranchPoint& place) {
+    const MembraneCurve curve = sampled_curve(state, GaussRule(Resolution{}.points), parameters.domain.membrane_height,
+                                              vesicle_case(parameters).concentration, curve_points);
+    const double reduced_energy = state.bending_energy() / (8 * std::numbers::pi * state.membrane.stiffness);
+    Json figures =
+        writer.write(curve, BendingModel(parameters.membrane),
+                     {state.membrane.reduced_volume(), reduced_energy, state.pressure(), state.tension(),
+                      curve.z.front() - curve.z.back(), place.arc_length, static_cast<double>(place.folds_before)});
+    figures["reduced_volume"] = state.membrane.reduced_volume();
+    figures["reduced_energy"] = reduced_energy;
+    figures["pressure_pN_per_nm2"] = state.pressure();
+    figures["tension_pN_per_nm"] = state.tension();
+    return figures;
+}
+
+ExitReason write_branch(const Parameters& parameters, const Request::Continuation& continuation,
+                        const VesicleState& state, StateWriter& writer) {
+    const auto& [key, end] = continuation;
+    const double begin = number_of(parameters, key);
+    const auto named = [&](double value) {
+        Parameters changed = parameters;
+        find_parameter(key)->set(changed, value);
+        return changed;
+    };
+    const auto membrane = [&](double value) { return vesicle_case(named(value)).membrane; };
+    const auto visit = [&](const BranchPoint& point) {
+        const double value = point.solution.parameter;
+        write_vesicle(writer, named(value), {membrane(value), point.solution, {}, 0}, point);
+        return interruption_signal() == 0;
+    };
+    const auto branch = continue_vesicle(state, membrane, begin, end, visit);
+    if (!branch)
+        throw SolverError("no-convergence", "Newton's method failed at the first point of the branch",
+                          "choose another parameter or start from another case");
+    if (interruption_signal() != 0) return ExitReason::interrupted;
+    describe_branch(writer, key, begin, *branch, to_string(branch->end));
+    return ExitReason::done;
+}
+
+}  // namespace
+
+std::vector<std::string> vesicle_columns() {
+    return {"reduced_volume",   "reduced_energy", "pressure_pN_per_nm2", "tension_pN_per_nm",
+            "pole_distance_nm", "branch_length",  "folds_passed"};
+}
+
+ExitReason simulate_vesicle(const Parameters& parameters, const Request& request, RunOutput& output) {
+    const VesicleCase wanted = vesicle_case(parameters);
+    std::optional<VesicleState> state;
+    {
+        const PhaseTimer timer(output, "search");
+        state = find_vesicle(wanted.membrane, request.family.value_or(wanted.family));
+    }
+    const PhaseTimer timer(output, request.continuation ? "branch" : "output");
+    output.note("relative_error", state->relative_error);
+    output.note("elements", state->solution.elements());
+    StateWriter writer(output);
+    if (request.continuation) return write_branch(parameters, *request.continuation, *state, writer);
+    const Json figures = write_vesicle(writer, parameters, *state, {state->solution, state->solution, 0, 0});
+    output.note("stationary_state", figures);
+    print_figures(figures);
+    return ExitReason::done;
+}
+
+}  // namespace endoflow::statics
