@@ -24,8 +24,10 @@ MembraneDynamics::MembraneDynamics(const Parameters& parameters)
              parameters.domain.kind == DomainKind::box ? CurveEnd::clamped : CurveEnd::closed),
       model_(parameters.membrane),
       flow_(make_flow(parameters, space_)),
-      mesh_(space_, {parameters.boundary_integral.mesh_curvature_length, parameters.boundary_integral.mesh_edge_weight,
-                     parameters.boundary_integral.mesh_relaxation_time, parameters.boundary_integral.mesh_smoothing}) {}
+      mesh_(space_,
+            {parameters.boundary_integral.mesh_curvature_length, parameters.boundary_integral.mesh_edge_weight,
+             parameters.boundary_integral.mesh_relaxation_time, parameters.boundary_integral.mesh_smoothing},
+            flow_->keeps_local_area() ? MeshCarrier::material : MeshCarrier::normal_motion) {}
 
 Eigen::VectorXd MembraneDynamics::pack(const Eigen::VectorXd& curve, const Eigen::VectorXd& moments) const {
     Eigen::VectorXd y(size());
@@ -106,8 +108,8 @@ Evaluation MembraneDynamics::evaluate(const Eigen::VectorXd& y,
     const double rim_energy_density =
         space_.end() == CurveEnd::clamped ? energy_density_at_rim(space_, state, model_) : 0.0;
     e.flow = flow_->solve(*e.operators, e.samples, e.energy, rim_energy_density);
-    const Eigen::VectorXd tangential =
-        mesh_.tangential_velocity(state, samples, e.flow.inflow, mesh_.relaxation_rate(e.flow.velocity));
+    const Eigen::VectorXd tangential = mesh_.tangential_velocity(state, samples, e.flow.velocity, e.flow.inflow,
+                                                                 mesh_.relaxation_rate(e.flow.velocity));
     e.mesh_velocity = e.flow.velocity + tangential;
     const Eigen::VectorXd t_r = tangential.head(space_.radial_count());
     const Eigen::VectorXd t_z = tangential.tail(space_.axial_count());
@@ -142,13 +144,15 @@ Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
         velocity_c -= response * schur.solve(constraint * velocity_c);
     }
     const double relaxation = mesh_.relaxation_rate(e.flow.velocity);
-    const MeshMotion::Derivatives mesh = mesh_.derivatives(e.state, e.samples, e.flow.inflow, relaxation);
+    const MeshMotion::Derivatives mesh =
+        mesh_.derivatives(e.state, e.samples, e.flow.velocity, e.flow.inflow, relaxation);
     const Eigen::RowVectorXd rate_by_velocity = mesh_.rate_by_velocity(e.flow.velocity);
     // Variations of the tangential velocity of the mesh and of its whole velocity.
     const auto tangential = [&](const Eigen::MatrixXd& velocity, const Eigen::MatrixXd& direct) {
         Eigen::MatrixXd result = direct;
         if (freedoms.inflow) result.noalias() += mesh.by_inflow * velocity.row(space_.radial_count() - 1);
         result.noalias() += mesh.by_rate * (rate_by_velocity * velocity).eval();
+        if (mesh.by_velocity.size() > 0) result.noalias() += mesh.by_velocity * velocity;
         return result;
     };
     velocity_curve = freedoms.expand(velocity_curve);

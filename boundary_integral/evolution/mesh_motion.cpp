@@ -35,9 +35,10 @@ double inflow_profile(double xi) {
 
 }  // namespace
 
-MeshMotion::MeshMotion(const MembraneSpace& space, const MeshDensity& density)
+MeshMotion::MeshMotion(const MembraneSpace& space, const MeshDensity& density, MeshCarrier carrier)
     : space_(space),
       density_(density),
+      carrier_(carrier),
       radial_points_(space.radial().greville_points()),
       axial_points_(space.axial().greville_points()),
       radial_interpolation_(collocation_matrix(space.radial(), radial_points_), "interpolation"),
@@ -142,17 +143,29 @@ Eigen::VectorXd MeshMotion::interpolate_tangential(const MembraneState& state, S
     return field;
 }
 
+// u.t = u.x'/g, and delta t = n (n.delta x')/g.
+MeshMotion::Slip MeshMotion::slip(double xi, const CurvePoint& p, double u_r, double u_z, double inflow) const {
+    if (carrier_ == MeshCarrier::material) {
+        return {-inflow * inflow_profile(xi), 0.0, 0.0, 0.0, 0.0, -inflow_profile(xi)};
+    }
+    const double turning = -(u_r * p.normal_r + u_z * p.normal_z) / p.g;
+    return {
+        -(u_r * p.r1 + u_z * p.z1) / p.g, turning * p.normal_r, turning * p.normal_z, -p.r1 / p.g, -p.z1 / p.g, 0.0};
+}
+
 Eigen::VectorXd MeshMotion::tangential_velocity(const MembraneState& state, const MembraneSamples& samples,
-                                                double inflow, double rate) const {
+                                                const Eigen::VectorXd& velocity, double inflow, double rate) const {
     const Eigen::VectorXd ahead = numbers_ahead(samples);
+    const Eigen::VectorXd u_r = velocity.head(space_.radial_count()), u_z = velocity.tail(space_.axial_count());
     return interpolate_tangential(state, [&](double xi, const CurvePoint& p) {
         const BasisRow b = space_.radial().basis(xi);
-        return -inflow * inflow_profile(xi) - b.evaluate(ahead, 0) * p.g * rate / (1.0 + b.evaluate(ahead, 1));
+        return slip(xi, p, b.evaluate(u_r), space_.axial().basis(xi).evaluate(u_z), inflow).speed -
+               b.evaluate(ahead, 0) * p.g * rate / (1.0 + b.evaluate(ahead, 1));
     });
 }
 
 MeshMotion::Derivatives MeshMotion::derivatives(const MembraneState& state, const MembraneSamples& samples,
-                                                double inflow, double rate) const {
+                                                const Eigen::VectorXd& velocity, double inflow, double rate) const {
     const Index offset = space_.radial_count(), curve = space_.curve_count(), axial_count = space_.axial_count();
     const Index variables = curve + axial_count;  // (r, z, c) coefficients
     const double length = density_.curvature_length;
@@ -206,48 +219,46 @@ MeshMotion::Derivatives MeshMotion::derivatives(const MembraneState& state, cons
     const Eigen::MatrixXd variation =
         (antiderivative_.solve(std::move(right)) - (ahead_of_xi + identity_) * total_variation) / total;
 
-    // alpha t = -inflow xi^5 x'/g - rate (N - xi) x'/N' at the interpolation points
-    Eigen::MatrixXd r = Eigen::MatrixXd::Zero(offset, variables), z = Eigen::MatrixXd::Zero(axial_count, variables);
-    Eigen::MatrixXd r_rate(offset, 1), z_rate(axial_count, 1);
-    const auto fill = [&](double xi, bool radial, auto row, double& by_rate) {
+    // alpha t = alpha_0 x'/g - rate (N - xi) x'/N' at the interpolation points, by (r, z, c), by the velocity (both
+    // components), by the inflow and by the rate.
+    const Index by_velocity = variables, by_inflow = variables + curve, by_rate = by_inflow + 1;
+    Eigen::MatrixXd r = Eigen::MatrixXd::Zero(offset, by_rate + 1), z = Eigen::MatrixXd::Zero(axial_count, by_rate + 1);
+    const Eigen::VectorXd u_r = velocity.head(offset), u_z = velocity.tail(axial_count);
+    const auto fill = [&](double xi, bool radial, auto row) {
         const BasisRow b = space_.radial().basis(xi);
         const BasisRow a = space_.axial().basis(xi);
         const CurvePoint p = curve_point(b, a, state);
         const double slope = 1.0 + b.evaluate(ahead_of_xi, 1), ahead = b.evaluate(ahead_of_xi, 0);
-        const double tangent = radial ? p.r1 : p.z1;
+        const double component = radial ? p.r1 : p.z1;
+        const double tangent = component / p.g;
         const double normal = radial ? p.normal_r : p.normal_z;
-        by_rate = -ahead * tangent / slope;
-        const double turning = -inflow * inflow_profile(xi) * normal / p.g;  // delta t = n (n.delta x')/g
+        const Slip s = slip(xi, p, b.evaluate(u_r), a.evaluate(u_z), inflow);
+        const double turning = s.speed * normal / p.g;
         for (std::size_t j = 0; j < 6; ++j) {
-            const double factor = -rate * tangent / slope * (b.value[0][j] - ahead / slope * b.value[1][j]);
-            row += factor * variation.row(b.index[j]);
-            row(b.index[j]) += turning * p.normal_r * b.value[1][j];
-            row(offset + a.index[j]) += turning * p.normal_z * a.value[1][j];
-            if (radial) {
-                row(b.index[j]) -= rate * ahead / slope * b.value[1][j];
-            } else {
-                row(offset + a.index[j]) -= rate * ahead / slope * a.value[1][j];
-            }
+            const double by_numbers = -rate * component / slope * (b.value[0][j] - ahead / slope * b.value[1][j]);
+            row.head(variables) += by_numbers * variation.row(b.index[j]);
+            row(b.index[j]) += (turning * p.normal_r + tangent * s.by_r1) * b.value[1][j];
+            row(offset + a.index[j]) += (turning * p.normal_z + tangent * s.by_z1) * a.value[1][j];
+            row(radial ? b.index[j] : offset + a.index[j]) -=
+                rate * ahead / slope * (radial ? b.value[1][j] : a.value[1][j]);
+            row(by_velocity + b.index[j]) += tangent * s.by_u_r * b.value[0][j];
+            row(by_velocity + offset + a.index[j]) += tangent * s.by_u_z * a.value[0][j];
         }
+        row(by_inflow) = tangent * s.by_inflow;
+        row(by_rate) = -ahead * component / slope;
     };
-    for (std::size_t i = 0; i < radial_points_.size(); ++i) {
-        const auto row = static_cast<Index>(i);
-        fill(radial_points_[i], true, r.row(row), r_rate(row, 0));
-    }
-    for (std::size_t i = 0; i < axial_points_.size(); ++i) {
-        const auto row = static_cast<Index>(i);
-        fill(axial_points_[i], false, z.row(row), z_rate(row, 0));
-    }
+    for (std::size_t i = 0; i < radial_points_.size(); ++i) fill(radial_points_[i], true, r.row(static_cast<Index>(i)));
+    for (std::size_t i = 0; i < axial_points_.size(); ++i) fill(axial_points_[i], false, z.row(static_cast<Index>(i)));
     radial_interpolation_.solve_in_place(r);
     axial_interpolation_.solve_in_place(z);
+    Eigen::MatrixXd all(curve, by_rate + 1);
+    all << r, z;
     Derivatives result;
-    result.by_curve.resize(curve, curve);
-    result.by_curve << r.leftCols(curve), z.leftCols(curve);
-    result.by_concentration.resize(curve, axial_count);
-    result.by_concentration << r.rightCols(axial_count), z.rightCols(axial_count);
-    result.by_rate.resize(curve);
-    result.by_rate << radial_interpolation_.solve(r_rate), axial_interpolation_.solve(z_rate);
-    result.by_inflow = interpolate_tangential(state, [](double xi, const CurvePoint&) { return -inflow_profile(xi); });
+    result.by_curve = all.leftCols(curve);
+    result.by_concentration = all.middleCols(curve, axial_count);
+    if (carrier_ == MeshCarrier::normal_motion) result.by_velocity = all.middleCols(by_velocity, curve);
+    result.by_inflow = all.col(by_inflow);
+    result.by_rate = all.col(by_rate);
     return result;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
 // Where the elements go: the mesh follows the material, except for the inflow at the rim and a slow relaxation towards
-// the element density that the coat edge and the curvature ask for.
+// the element density that the coat edge and the curvature ask for. A material that may stretch can pile up at the
+// coat's edge without limit: there the mesh follows only the normal motion.
 
 #include <Eigen/Core>
 
@@ -19,29 +20,32 @@ struct MeshDensity {
     double smoothing;        // rho is filtered over this length in xi, whatever the number of elements
 };
 
+enum class MeshCarrier { material, normal_motion };
+
 class MeshMotion {
   public:
-    MeshMotion(const MembraneSpace& space, const MeshDensity& density);
+    MeshMotion(const MembraneSpace& space, const MeshDensity& density, MeshCarrier carrier);
 
     // Rate of the relaxation [1/us] for a membrane with this velocity (curve_count): 1/tau in motion, a tenth of it at
     // rest. The mesh has to follow a membrane that moves, and must not be stiff on one that hardly does.
     double relaxation_rate(const Eigen::VectorXd& velocity) const;
 
     // Tangential velocity field added to the material velocity, as coefficients (curve_count), nm/us:
-    //     alpha t,  alpha = -inflow xi^5 - rate (N - xi) g / N'
+    //     alpha t,  alpha = alpha_0 - rate (N - xi) g / N',  alpha_0 = -inflow xi^5 or -u.t
     // N(xi): fraction of elements the density wants between the axis and xi; N(1) = 1.
-    Eigen::VectorXd tangential_velocity(const MembraneState& state, const MembraneSamples& samples, double inflow,
-                                        double rate) const;
+    Eigen::VectorXd tangential_velocity(const MembraneState& state, const MembraneSamples& samples,
+                                        const Eigen::VectorXd& velocity, double inflow, double rate) const;
 
     // Its derivatives.
     struct Derivatives {
-        Eigen::MatrixXd by_curve;          // curve_count x curve_count, at fixed c(xi), inflow and rate
+        Eigen::MatrixXd by_curve;          // curve_count x curve_count, at fixed c(xi), velocity, inflow and rate
         Eigen::MatrixXd by_concentration;  // curve_count x axial_count
-        Eigen::VectorXd by_inflow;         // curve_count
+        Eigen::VectorXd by_inflow;         // curve_count; zero when the mesh follows the normal motion
+        Eigen::MatrixXd by_velocity;       // curve_count x curve_count; empty when the mesh follows the material
         Eigen::VectorXd by_rate;           // curve_count
     };
-    Derivatives derivatives(const MembraneState& state, const MembraneSamples& samples, double inflow,
-                            double rate) const;
+    Derivatives derivatives(const MembraneState& state, const MembraneSamples& samples, const Eigen::VectorXd& velocity,
+                            double inflow, double rate) const;
 
     // d(relaxation_rate)/d(velocity), curve_count.
     Eigen::RowVectorXd rate_by_velocity(const Eigen::VectorXd& velocity) const;
@@ -52,6 +56,7 @@ class MeshMotion {
   private:
     const MembraneSpace& space_;
     MeshDensity density_;
+    MeshCarrier carrier_;
     std::vector<double> radial_points_, axial_points_;  // Greville points of the two spaces
     LuFactors radial_interpolation_, axial_interpolation_, filter_, antiderivative_;
     Eigen::VectorXd identity_;  // xi itself in the radial space, as far as its ends let it
@@ -59,6 +64,14 @@ class MeshMotion {
     double mean_speed(const Eigen::VectorXd& velocity) const;
     double wanted_density(const CurvePoint& p, double c) const;
     std::vector<double> filtered_density(const MembraneSamples& samples) const;  // at the Gauss points
+    // What carries the mesh off the material at one point, and its derivatives by x' and u.
+    struct Slip {
+        double speed;           // alpha_0, nm/us
+        double by_r1, by_z1;    // 1/us
+        double by_u_r, by_u_z;  // 1
+        double by_inflow;       // 1
+    };
+    Slip slip(double xi, const CurvePoint& p, double u_r, double u_z, double inflow) const;
     template <class Speed>
     Eigen::VectorXd interpolate_tangential(const MembraneState& state, Speed speed) const;
 };

@@ -31,7 +31,7 @@ ShapeIntegrals shape_integrals(const MembraneSpace& space, const MembraneState& 
 // Energy balance of a state: rate of E along the computed motion against the power given to the fluid, the energy that
 // inflowing membrane brings along and the energy that diffusion of the molecules brings.
 struct EnergyBalance {
-    double energy;           // pN nm
+    double energy;            // pN nm
     double energy_rate;       // dE/dt, pN nm/us
     double dissipated_power;  // int f.u dA, pN nm/us
     double diffusive_power;   // dE/dt by diffusion of c, pN nm/us

@@ -76,6 +76,7 @@ class FlowModel {
     // velocity, all curve coefficients.
     Eigen::MatrixXd constraint_matrix(const MembraneSamples& samples, const VelocityFreedoms& freedoms) const;
     Eigen::MatrixXd constraint_variation(const MembraneSamples& samples, const Eigen::VectorXd& velocity) const;
+    bool keeps_local_area() const { return constraints_.local_area; }
     bool constrained() const { return constraints_.local_area || constraints_.volume; }
 
   protected:

@@ -62,11 +62,13 @@ TEST_CASE("the energy's rate is minus the dissipated power plus diffusion", "[dy
 
 TEST_CASE("the Jacobian is the derivative of the rate at fixed operators", "[dynamics]") {
     Parameters parameters = small_case();
-    const auto [dynamics_kind, domain_kind] =
-        GENERATE(std::pair(Dynamics::flow, DomainKind::box), std::pair(Dynamics::geometric, DomainKind::box),
-                 std::pair(Dynamics::flow, DomainKind::free_space));
+    const auto [dynamics_kind, domain_kind, inextensible] =
+        GENERATE(std::tuple(Dynamics::flow, DomainKind::box, true), std::tuple(Dynamics::flow, DomainKind::box, false),
+                 std::tuple(Dynamics::geometric, DomainKind::box, false),
+                 std::tuple(Dynamics::flow, DomainKind::free_space, true));
     parameters.fluid.dynamics = dynamics_kind;
     parameters.domain.kind = domain_kind;
+    parameters.membrane.inextensible = inextensible;
     const MembraneDynamics dynamics(parameters);
     // Off the initial state, where the mesh is at rest and many terms vanish.
     Eigen::VectorXd y = dynamics.initial_vector();
@@ -90,7 +92,7 @@ TEST_CASE("the Jacobian is the derivative of the rate at fixed operators", "[dyn
     const auto relative = [&](Index i, Index j, Index rows, Index columns) {
         return (jacobian - difference).block(i, j, rows, columns).norm() / difference.block(i, j, rows, columns).norm();
     };
-    CAPTURE(static_cast<int>(dynamics_kind), static_cast<int>(domain_kind));
+    CAPTURE(static_cast<int>(dynamics_kind), static_cast<int>(domain_kind), inextensible);
     // Central differences: (1e-5)^2 times third derivatives, and round-off of rates ~ 1e5 in steps of 1e-5.
     CHECK(relative(0, 0, curve, curve) < 1e-5);
     CHECK(relative(0, curve, curve, moments) < 1e-5);
