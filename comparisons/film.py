@@ -11,6 +11,7 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
 import numpy as np  # noqa: E402
 
 from commands import IO_FAILURE  # noqa: E402
+from extent import half_width  # noqa: E402
 from members import StudyError, last_line  # noqa: E402
 from paper.pictures import draw_membrane  # noqa: E402
 from plots import vertical_range  # noqa: E402
@@ -48,7 +49,7 @@ class Film:
     def __init__(self, run, times, width):
         self.run, self.times = run, times
         shapes = [run.shape_at(time) for time in times[:: max(1, len(times) // 50)]] + [run.shapes[-1]]
-        self.z_range, self.rim = vertical_range(shapes, 8.0), max(shape.r[-1] for shape in shapes)
+        self.z_range, self.rim = vertical_range(shapes, 8.0), half_width(shapes)
         even = 2 * round(width / 2), 2 * round(width * 9 / 32)
         self.figure = plt.figure(figsize=(even[0] / DOTS, even[1] / DOTS), dpi=DOTS)
         self.membrane = self.figure.add_axes([0.06, 0.09, 0.61, 0.8])

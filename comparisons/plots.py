@@ -10,6 +10,7 @@ from matplotlib.collections import LineCollection  # noqa: E402
 from matplotlib.ticker import LogLocator, NullFormatter  # noqa: E402
 
 from endoflow.curves import resample  # noqa: E402
+from extent import half_width  # noqa: E402
 from metrics import concentration_profile, last_budding  # noqa: E402
 from time_axis import time_axis  # noqa: E402
 
@@ -131,7 +132,7 @@ def membranes(a, b, times, labels, colours):
         rows, columns, figsize=(9.4, height), sharex=True, sharey=True, squeeze=False, layout="constrained"
     )
     for axes, time, pair in zip(grid.flat, times, pairs):
-        lines = draw_pair(axes, pair, colours, z_range, rim=pair[0].r[-1])
+        lines = draw_pair(axes, pair, colours, z_range, rim=half_width(pair))
         axes.set_title(f"t = {time:.4g} µs")
     for axes in grid[-1]:
         axes.set_xlabel("r (nm)")
@@ -169,13 +170,13 @@ def outlines(a, b, times, labels, colours):
     """Both outlines on the same axes, one panel for each time (µs)."""
     pairs = [(a.shape_at(t), b.shape_at(t)) for t in times]
     z_range = vertical_range([shape for pair in pairs for shape in pair], 6.0)
-    height = 1.1 + 8.6 / len(times) * (z_range[1] - z_range[0]) / pairs[0][0].r[-1]
+    height = 1.1 + 8.6 / len(times) * (z_range[1] - z_range[0]) / half_width(pairs[0])
     figure, grid = plt.subplots(1, len(times), figsize=(9.4, height), sharey=True, squeeze=False, layout="constrained")
     for axes, time, pair in zip(grid[0], times, pairs):
         for shape, colour, line in zip(pair, colours, style.LINES):
             r, z = resample(shape.r, shape.z, DRAWN_SPACING)
             axes.plot(r, z, color=colour, **line)
-        axes.set(aspect="equal", xlim=(0, pair[0].r[-1]), ylim=z_range, xlabel="r (nm)")
+        axes.set(aspect="equal", xlim=(0, half_width(pair)), ylim=z_range, xlabel="r (nm)")
         axes.set_title(f"t = {time:.4g} µs")
     grid[0, 0].set_ylabel("z (nm)")
     _name_lines(figure, labels, colours)

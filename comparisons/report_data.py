@@ -6,6 +6,7 @@ import numpy as np
 
 import style
 from endoflow.curves import resample
+from extent import half_width
 from metrics import last_budding
 from time_axis import long_after_budding, time_axis
 
@@ -33,7 +34,8 @@ def report_data(a, b, metrics):
         "interpolated": [int(not np.isclose(output_times, t, rtol=1e-9, atol=1e-9).any()) for t in times],
         "startTime": start_time(metrics),
         "points": POINTS,
-        "rim": float(max(shape.r[-1] for pair in pairs for shape in pair)),
+        "rim": float(half_width([shape for pair in pairs for shape in pair])),
+        "closed": pairs[0][0].closed,
         "heightRange": height_range(pairs),
         "concentrationStops": [style.CONCENTRATION_STOPS, style.CONCENTRATION_STOPS_DARK],
         "runs": [packed_curves([pair[side] for pair in pairs]) for side in (0, 1)],

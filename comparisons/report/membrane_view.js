@@ -43,7 +43,7 @@ function membraneView(canvas) {
   function tintExtracellular(run, frame, side) {
     context.beginPath();
     trace(run, frame, side, 0, report.points - 1);
-    context.lineTo(toX(side * report.rim), toY(lowest));
+    context.lineTo(toX(side * run.r[(frame + 1) * report.points - 1]), toY(lowest));  // the rim, or the axis below a vesicle
     context.lineTo(toX(0), toY(lowest));
     context.fillStyle = colours.extracellular;
     context.fill();
@@ -137,6 +137,7 @@ function membraneView(canvas) {
   }
 
   function nameFluids() {
+    if (report.closed) return;  // which fluid a vesicle holds is up to its case
     context.fillStyle = colours.muted;
     context.font = "13px system-ui, 'DejaVu Sans', sans-serif";
     context.textAlign = "left";

@@ -25,6 +25,15 @@ def equivalent_radius(r, z):
     return np.sqrt(area_from_axis(r, z) / np.pi)
 
 
+def closed_label(r, z):
+    """Label (n,) of the points of a closed curve by the area fraction f above them: arcsin √f, from 0 to π/2.
+
+    Unlike f, it grows in proportion to the distance from either pole.
+    """
+    area = area_from_axis(r, z)
+    return np.arcsin(np.sqrt(area / area[-1]))
+
+
 def local_cubic(x, y, x_new):
     """Interpolate y (n,) given at increasing x (n,) at x_new (m,) with a C¹ piecewise cubic; returns (m,).
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import h5py
 import numpy as np
 
-from .curves import equivalent_radius, local_cubic
+from .curves import closed_label, equivalent_radius, local_cubic
 from .errors import RERUN, RunDirectoryError
 
 #: Datasets of each group /shapes/NNNNNN. The attribute of Shape has the same name, `lambda_` for `lambda`.
@@ -15,6 +15,8 @@ FIELDS = ("s", "r", "z", "c", "lambda", "kappa", "u_r", "u_z")
 @dataclass(frozen=True)
 class Shape:
     """A membrane curve: arrays of one length (n,), ordered from the axis to the rim, at `time` (µs).
+
+    The curve of a closed vesicle goes from its upper pole to the lower one, `closed` says so.
 
     s: arc length from the axis (nm), r, z: position (nm), c: molecule concentration (0…1),
     lambda_: sharp tension (pN/nm), kappa: total curvature (1/nm), u_r, u_z: velocity (nm/µs).
@@ -38,6 +40,11 @@ class Shape:
 
     def __len__(self):
         return len(self.r)
+
+    @property
+    def closed(self):
+        """Whether the curve ends on the axis again."""
+        return bool(self.r[-1] <= 1e-9 * self.r.max())
 
 
 def _attribute(field):
@@ -96,12 +103,31 @@ def between(first, second, time):
     enters at the rim between the two times comes from a flat continuation outside; the result ends at the rim again.
     """
     weight = (time - first.time) / (second.time - first.time)
+    if first.closed and second.closed:
+        return _between_closed(first, second, weight, time)
     label = np.union1d(equivalent_radius(first.r, first.z), equivalent_radius(second.r, second.z))
     label = label[np.concatenate(([True], np.diff(label) > 1e-6))]
     a, b = _continued(first, label), _continued(second, label)
     mixed = {name: (1 - weight) * a[name] + weight * b[name] for name in FIELDS}
     rim = (1 - weight) * first.r[-1] + weight * second.r[-1]
     return Shape(time, **{_attribute(name): array for name, array in _cut_at(mixed, rim).items()})
+
+
+def _between_closed(first, second, weight, time):
+    """between() for closed curves: at equal fractions of the area, through a label that is smooth at both poles."""
+    labels = [closed_label(shape.r, shape.z) for shape in (first, second)]
+    label = np.union1d(*labels)
+    label = label[np.concatenate(([True], np.diff(label) > 1e-9))]
+    mixed = {}
+    for name in FIELDS:
+        smooth = local_cubic if name in ("r", "z") else _linear
+        a, b = (smooth(own, shape[name], label) for own, shape in zip(labels, (first, second)))
+        mixed[name] = (1 - weight) * a + weight * b
+    return Shape(time, **{_attribute(name): array for name, array in mixed.items()})
+
+
+def _linear(x, y, x_new):
+    return np.interp(x_new, x, y)
 
 
 def _continued(shape, label):

@@ -151,6 +151,33 @@ class Interpolation(unittest.TestCase):
         self.assertTrue((np.diff(shape.r[-20:]) > 0).all())
 
 
+class ClosedCurves(unittest.TestCase):
+    @staticmethod
+    def sphere(time, radius, points):
+        """A sphere from pole to pole, its points unevenly spread."""
+        angle = np.pi * np.linspace(0, 1, points) ** 1.3
+        r, z = radius * np.sin(angle), radius * np.cos(angle)
+        r[-1] = 0.0
+        fields = {"s": radius * angle, "r": r, "z": z, "c": 0 * r, "lambda_": 0 * r, "kappa": 0 * r + 2 / radius}
+        return Shape(time, **fields, u_r=0 * r, u_z=0 * r)
+
+    def test_a_growing_sphere_between_times(self):
+        """Equal fractions of area are equal angles: the sphere of the mean radius, up to the cubic's O(h³)."""
+        errors = []
+        for points in (101, 201):
+            shape = between(self.sphere(0.0, 20.0, points), self.sphere(1.0, 22.0, points + 30), 0.5)
+            self.assertTrue(shape.closed)
+            self.assertEqual(shape.r[0], 0.0)
+            self.assertAlmostEqual(shape.r[-1], 0.0, delta=1e-12)
+            errors.append(np.abs(np.hypot(shape.r, shape.z) - 21).max())
+        self.assertLess(errors[1], 1e-4)
+        self.assertLess(errors[1], errors[0] / 3)
+
+    def test_a_membrane_across_the_box_is_open(self):
+        r = np.linspace(0, 80, 11)
+        self.assertFalse(Shape(0.0, r, r, 0 * r, 0 * r, 0 * r, 0 * r, 0 * r, 0 * r).closed)
+
+
 class DamagedRun(unittest.TestCase):
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()

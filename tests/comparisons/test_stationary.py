@@ -3,6 +3,7 @@
 import json
 import tempfile
 import unittest
+from dataclasses import dataclass
 from pathlib import Path
 
 import locations  # noqa: F401
@@ -11,6 +12,7 @@ import numpy as np
 import endoflow
 import synthetic
 from command import compare
+from endoflow.curves import area_from_axis
 from stationary import side_by_side
 
 DURATION = 1.0
@@ -20,6 +22,32 @@ TIMES = np.linspace(0.0, DURATION, 9)
 def at_rest(_time):
     """Where the run of `membrane_at` ends."""
     return synthetic.budding_membrane(DURATION, DURATION)
+
+
+@dataclass(frozen=True)
+class Spheroid:
+    """A closed membrane around z = 80 nm, from pole to pole; axes in nm."""
+
+    polar: float
+    equatorial: float = 40.0
+    z0: float = 80.0
+    neck_radius: float = np.nan
+    bud_diameter: float = np.nan
+
+    @property
+    def bud_height(self):
+        return 2 * self.polar
+
+    @property
+    def area(self):
+        r, z, _ = self.curve(2000)
+        return area_from_axis(r, z)[-1]
+
+    def curve(self, points):
+        angle = np.linspace(0, np.pi, points)
+        r, z = self.equatorial * np.sin(angle), self.z0 + self.polar * np.cos(angle)
+        r[-1] = 0.0
+        return r, z, 0 * r + 2 / self.equatorial
 
 
 class BesideARun(unittest.TestCase):
@@ -60,6 +88,15 @@ class BesideARun(unittest.TestCase):
     def test_two_stationary_shapes(self):
         metrics = self.metrics_of(self.statics, self.statics)
         self.assertEqual(metrics["summary"]["max_hausdorff_distance_nm"], 0.0)
+
+    def test_a_vesicle(self):
+        run = synthetic.write_run(
+            self.scratch / "vesicle", "boundary-integral", lambda t: Spheroid(60.0 - 2 * t), TIMES
+        )
+        at_rest = synthetic.write_run(self.scratch / "vesicle_statics", "statics", lambda _: Spheroid(58.0), [0.0])
+        summary = self.metrics_of(run, at_rest)["summary"]
+        self.assertAlmostEqual(summary["max_hausdorff_distance_nm"], 2.0, delta=1e-3)  # between the poles
+        self.assertAlmostEqual(summary["final_hausdorff_distance_nm"], 0.0, delta=1e-9)
 
     def test_a_branch_is_refused(self):
         process = compare(self.moving, self.branch, "-o", self.scratch / "never")
