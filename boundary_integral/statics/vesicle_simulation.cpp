@@ -33,7 +33,7 @@ Json write_vesicle(StateWriter& writer, const Parameters& parameters, const Vesi
 
 ExitReason write_branch(const Parameters& parameters, const Request::Continuation& continuation,
                         const VesicleState& state, StateWriter& writer) {
-    const auto& [key, end] = continuation;
+    const std::string& key = continuation.key;
     const double begin = number_of(parameters, key);
     const auto named = [&](double value) {
         Parameters changed = parameters;
@@ -46,7 +46,7 @@ ExitReason write_branch(const Parameters& parameters, const Request::Continuatio
         write_vesicle(writer, named(value), {membrane(value), point.solution, {}, 0}, point);
         return interruption_signal() == 0;
     };
-    const auto branch = continue_vesicle(state, membrane, begin, end, visit);
+    const auto branch = continue_vesicle(state, membrane, begin, continuation.end, visit);
     if (!branch)
         throw SolverError("no-convergence", "Newton's method failed at the first point of the branch",
                           "choose another parameter or start from another case");
