@@ -5,7 +5,7 @@ import numpy as np
 import style
 
 from .histories import history_figure
-from .item import QUICK_LAYER, Printed, Result, both_engines, end_of, final_value, is_run, not_run_remarks, quick_remark, text
+from .item import NECK_CLOSED, QUICK_LAYER, Printed, Result, both_engines, end_of, final_value, is_run, not_run_remarks, quick_remark, text
 from .snapshots import membrane_in_fluid, moving_membrane, snapshots
 
 TITLE = "Fig. 4: without flow and with flow"
@@ -41,7 +41,7 @@ def pinch_off_time(run):
     without = (time > budding) & np.isnan(neck)
     if without.any():
         return float(time[without][0])
-    return end_of(run) if run.record["exit_reason"] == "neck_closed" else None
+    return end_of(run) if run.record["exit_reason"] == NECK_CLOSED else None
 
 
 def row(name, engine, run):

@@ -5,6 +5,9 @@ from dataclasses import dataclass, field
 
 BOUNDARY_INTEGRAL, PHASE_FIELD = "boundary-integral", "phase-field"
 
+#: The exit_reason of a run whose neck closed.
+NECK_CLOSED = "neck-closed"
+
 #: `--quick`: a layer twice as thick on cells twice as large, and the time (µs) a phase-field run is followed.
 QUICK_LAYER = {"phase_field.epsilon": "2.4", "phase_field.cell_size": "2.5"}
 QUICK_END = 0.5

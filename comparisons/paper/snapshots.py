@@ -2,7 +2,7 @@
 
 import style
 
-from .item import end_of, is_run, last_time
+from .item import NECK_CLOSED, end_of, is_run, last_time
 from .pictures import Panel, fluid_arrows, gallery, membrane_arrows
 
 #: Room (nm) around the membranes in pictures that show the fluid.
@@ -13,9 +13,16 @@ def panels_at(found, times, draw):
     """Panels of a run at some times (µs); draw(run, time) makes one."""
     if not is_run(found):
         return [Panel(f"t = {time:.4g} µs", f"not run: {found.reason}") for time in times]
-    ended = f"the run ended at {end_of(found):.4g} µs" + ended_because(found)
     reached = last_time(found) * (1 + 1e-12)
-    return [draw(found, time) if time <= reached else Panel(f"t = {time:.4g} µs", ended) for time in times]
+    return [draw(found, time) if time <= reached else after_the_end(found, time) for time in times]
+
+
+def after_the_end(run, time):
+    """A panel for a time after a run's end: the last shape if its neck had closed, else a sentence."""
+    if run.record.get("exit_reason") == NECK_CLOSED:
+        last = run.shapes[-1]
+        return Panel(f"t = {last.time:.4g} µs, neck closed", last)
+    return Panel(f"t = {time:.4g} µs", f"the run ended at {end_of(run):.4g} µs" + ended_because(run))
 
 
 def membrane(run, time):
@@ -41,7 +48,7 @@ def membrane_in_fluid(run, time):
 def ended_because(run):
     """Why a run ended before its time, in words; "" when it did not."""
     reason = run.record.get("exit_reason")
-    return {"neck_closed": "\n(neck closed)", "budded": "\n(budded)"}.get(reason, "")
+    return {NECK_CLOSED: "\n(neck closed)", "budded": "\n(budded)"}.get(reason, "")
 
 
 def snapshots(runs, times, names, draw=membrane):

@@ -125,7 +125,7 @@ class PinchOff(unittest.TestCase):
         nan = np.nan
         for neck, budding, reason, wanted in (
             ([nan, 9, 6, 4, 2, nan, nan], 2.5, "done", 5.0),  # the run went on with the membrane that is left
-            ([nan, 9, 6, 4, 2], 2.5, "neck_closed", 4.0),
+            ([nan, 9, 6, 4, 2], 2.5, "neck-closed", 4.0),
             ([nan, 9, 6, 4, 2], 2.5, "done", None),  # still open
             ([nan, 9, nan, nan], None, "done", None),  # the bud went back
         ):
