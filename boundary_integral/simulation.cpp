@@ -49,6 +49,7 @@ class Run {
           output_(output),
           dynamics_(parameters),
           strain_(dynamics_.space()),
+          sampler_(dynamics_.space(), shape_points_per_element * dynamics_.space().elements()),
           initial_(dynamics_.initial_vector()),
           integrator_(problem(), restore(), {parameters.time.max_step, smallest_step}),
           fields_(field_index()) {}
@@ -75,6 +76,7 @@ class Run {
     MembraneDynamics dynamics_;
     RunMemory memory_;
     MaterialStrain strain_;
+    CurveSampler sampler_;
     Eigen::VectorXd initial_;
     MaterialRates strain_rates_;                          // at the last row
     std::shared_ptr<const MobilityOperators> operators_;  // of the step's predicted shape
@@ -236,9 +238,7 @@ class Run {
 
     void write_shape(double time, const Eigen::VectorXd& y) {
         const PhaseTimer timer(output_, "shapes");
-        const MembraneSpace& space = dynamics_.space();
-        output_.write_shape(time,
-                            membrane_curve(space, dynamics_.evaluate(y), shape_points_per_element * space.elements()));
+        output_.write_shape(time, sampler_(dynamics_.evaluate(y)));
         memory_.shapes_written += 1.0;
     }
 

@@ -23,6 +23,11 @@ double stationary_radius(const MembraneSpace& space, const MembraneState& state,
     return middle;
 }
 
+const QuadratureRule& arc_length_rule() {
+    static const QuadratureRule rule = gauss_legendre(4);
+    return rule;
+}
+
 double height(const MembraneSpace& space, const MembraneSamples& samples, const MembraneState& state,
               const DomainParameters& domain) {
     double highest = space.axial().basis(0.0).evaluate(state.z);
@@ -118,34 +123,43 @@ EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation&
     return balance;
 }
 
-MembraneCurve membrane_curve(const MembraneSpace& space, const Evaluation& e, Index intervals) {
-    MembraneCurve curve;
-    const Eigen::VectorXd u_r = e.flow.velocity.head(space.radial_count());
-    const Eigen::VectorXd u_z = e.flow.velocity.tail(space.axial_count());
-    const QuadratureRule rule = gauss_legendre(6);
-    double arc_length = 0.0;
+CurveSampler::CurveSampler(const MembraneSpace& space, Index intervals) : space_(space) {
+    const auto point = [&space](double xi) {
+        return Point{space.radial().basis(xi), space.axial().basis(xi), space.tension().basis(xi)};
+    };
+    const double step = 1.0 / static_cast<double>(intervals);
     for (Index i = 0; i <= intervals; ++i) {
-        const double step = 1.0 / static_cast<double>(intervals);
         const double xi = static_cast<double>(i) * step;
-        if (i > 0) {
-            for (std::size_t q = 0; q < rule.nodes.size(); ++q) {
-                const double at = xi - 0.5 * step * (1.0 - rule.nodes[q]);
-                arc_length += 0.5 * step * rule.weights[q] *
-                              curve_point(space.radial().basis(at), space.axial().basis(at), e.state).g;
-            }
-        }
-        const BasisRow radial = space.radial().basis(xi);
-        const BasisRow axial = space.axial().basis(xi);
-        const CurvePoint p = curve_point(radial, axial, e.state);
-        const bool on_axis = i == 0 || (i == intervals && space.end() == CurveEnd::closed);
+        points_.push_back(point(xi));
+        if (i == intervals) break;
+        for (const double node : arc_length_rule().nodes) between_.push_back(point(xi + 0.5 * step * (1.0 + node)));
+    }
+}
+
+MembraneCurve CurveSampler::operator()(const Evaluation& e) const {
+    MembraneCurve curve;
+    const Eigen::VectorXd u_r = e.flow.velocity.head(space_.radial_count());
+    const Eigen::VectorXd u_z = e.flow.velocity.tail(space_.axial_count());
+    const std::vector<double>& weights = arc_length_rule().weights;
+    const std::size_t last = points_.size() - 1;
+    double arc_length = 0.0;
+    for (std::size_t i = 0; i <= last; ++i) {
+        const Point& point = points_[i];
+        const CurvePoint p = curve_point(point.radial, point.axial, e.state);
+        const bool on_axis = i == 0 || (i == last && space_.end() == CurveEnd::closed);
         curve.s.push_back(arc_length);
         curve.r.push_back(on_axis ? 0.0 : p.r);
         curve.z.push_back(p.z);
-        curve.c.push_back(axial.evaluate(e.state.c));
-        curve.lambda.push_back(space.tension().basis(xi).evaluate(e.flow.multipliers.tension));
+        curve.c.push_back(point.axial.evaluate(e.state.c));
+        curve.lambda.push_back(point.tension.evaluate(e.flow.multipliers.tension));
         curve.kappa.push_back(p.total_curvature());
-        curve.u_r.push_back(on_axis ? 0.0 : radial.evaluate(u_r));
-        curve.u_z.push_back(axial.evaluate(u_z));
+        curve.u_r.push_back(on_axis ? 0.0 : point.radial.evaluate(u_r));
+        curve.u_z.push_back(point.axial.evaluate(u_z));
+        for (std::size_t q = 0; i < last && q < weights.size(); ++q) {
+            const Point& middle = between_[i * weights.size() + q];
+            arc_length +=
+                0.5 / static_cast<double>(last) * weights[q] * curve_point(middle.radial, middle.axial, e.state).g;
+        }
     }
     return curve;
 }

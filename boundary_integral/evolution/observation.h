@@ -3,6 +3,7 @@
 // What a run reports about a state: exact integrals and extrema of the spline curve.
 
 #include <optional>
+#include <vector>
 
 #include "boundary_integral/evolution/membrane_dynamics.h"
 #include "shared/geometry/membrane_curve.h"
@@ -39,7 +40,19 @@ struct EnergyBalance {
 };
 EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& evaluation);
 
-// The curve with all its fields on `intervals` equal steps of xi, axis and rim included.
-MembraneCurve membrane_curve(const MembraneSpace& space, const Evaluation& evaluation, Index intervals);
+// Samples the curve with all its fields at equal steps of xi, both ends included.
+class CurveSampler {
+  public:
+    CurveSampler(const MembraneSpace& space, Index intervals);
+    MembraneCurve operator()(const Evaluation& evaluation) const;
+
+  private:
+    struct Point {
+        BasisRow radial, axial, tension;
+    };
+    const MembraneSpace& space_;
+    std::vector<Point> points_;
+    std::vector<Point> between_;  // Gauss points of every interval, for the arc length
+};
 
 }  // namespace endoflow::boundary_integral

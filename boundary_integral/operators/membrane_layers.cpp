@@ -1,6 +1,7 @@
 #include "boundary_integral/operators/membrane_layers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "boundary_integral/operators/closest_point.h"
@@ -81,7 +82,7 @@ class Builder {
     std::vector<double> extra_measure_;
     ElementBasis extra_basis_;
     RingKernels kernels_;
-    std::vector<double> first_sums_, second_sums_;
+    std::array<std::vector<double>, 4> sums_;
 
     void set_differences(const Target& target) {
         for (std::size_t i = 0; i < sources_.samples.curve.size(); ++i) {
@@ -192,29 +193,34 @@ class Builder {
     void deposit(const TargetRows& rows, std::size_t elements, const std::vector<double>& measure,
                  const ElementBasis& basis) {
         const std::size_t points = measure.size() / elements;
-        first_sums_.resize(basis_stride * elements);
-        second_sums_.resize(basis_stride * elements);
+        for (auto& sums : sums_) sums.resize(basis_stride * elements);
         const Index offset = sources_.space.radial_count();
-        const auto begin = [](RowMatrix& matrix, Index row, Index first_column) {
-            return row < 0 ? nullptr : matrix.row(row).data() + first_column;
+        struct Part {
+            const BasisTable& table;
+            const std::vector<double>& values;
+            RowMatrix& matrix;
+            Index row, first_column;
         };
-        const auto into = [&](const BasisTable& table, const std::vector<double>& first,
-                              const std::vector<double>& second, double* first_row, double* second_row) {
-            point_sums(elements, points, table.values(), measure.data(), first.data(), second.data(),
-                       first_sums_.data(), second_sums_.data());
-            for (std::size_t e = 0; e < elements; ++e) {
-                if (first_row != nullptr) table.scatter(e, &first_sums_[basis_stride * e], first_row);
-                if (second_row != nullptr) table.scatter(e, &second_sums_[basis_stride * e], second_row);
+        const auto add = [&](const std::array<Part, 4>& parts) {
+            point_sums(elements, points, parts[0].table.values(), parts[2].table.values(), measure.data(),
+                       {parts[0].values.data(), parts[1].values.data(), parts[2].values.data(), parts[3].values.data()},
+                       {sums_[0].data(), sums_[1].data(), sums_[2].data(), sums_[3].data()});
+            for (std::size_t k = 0; k < parts.size(); ++k) {
+                if (parts[k].row < 0) continue;
+                double* row = parts[k].matrix.row(parts[k].row).data() + parts[k].first_column;
+                for (std::size_t e = 0; e < elements; ++e) parts[k].table.scatter(e, &sums_[k][basis_stride * e], row);
             }
         };
         RowMatrix& single = layers_.single;
         RowMatrix& doubled = layers_.doubled;
-        into(basis.radial, kernels_.g_rr, kernels_.g_zr, begin(single, rows.radial, 0), begin(single, rows.axial, 0));
-        into(basis.radial, kernels_.t_rr, kernels_.t_zr, begin(doubled, rows.radial, 0), begin(doubled, rows.axial, 0));
-        into(basis.force, kernels_.g_rz, kernels_.g_zz, begin(single, rows.radial, offset),
-             begin(single, rows.axial, offset));
-        into(basis.axial, kernels_.t_rz, kernels_.t_zz, begin(doubled, rows.radial, offset),
-             begin(doubled, rows.axial, offset));
+        add({Part{basis.radial, kernels_.g_rr, single, rows.radial, 0},
+             Part{basis.radial, kernels_.g_zr, single, rows.axial, 0},
+             Part{basis.radial, kernels_.t_rr, doubled, rows.radial, 0},
+             Part{basis.radial, kernels_.t_zr, doubled, rows.axial, 0}});
+        add({Part{basis.force, kernels_.g_rz, single, rows.radial, offset},
+             Part{basis.force, kernels_.g_zz, single, rows.axial, offset},
+             Part{basis.axial, kernels_.t_rz, doubled, rows.radial, offset},
+             Part{basis.axial, kernels_.t_zz, doubled, rows.axial, offset}});
     }
 };
 
