@@ -17,7 +17,7 @@ def compare(*arguments, **environment):
         [sys.executable, str(locations.COMPARE), *map(str, arguments)],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=300,
         env={**os.environ, **environment},
     )
 

@@ -82,7 +82,7 @@ def run(engine, case, settings, output, restart):
         note(output, "running")
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         (output / "ready").write_text("")
-        signal.sigtimedwait({signal.SIGINT}, 30)
+        signal.sigtimedwait({signal.SIGINT}, 120)
         time.sleep(0.2)
         note(output, "interrupted")
         sys.exit(130)

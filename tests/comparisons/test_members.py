@@ -107,7 +107,7 @@ class Slurm(StudyTest):
             env={**os.environ, "SLURM_ARRAY_TASK_ID": str(number), "PATH": path},
             capture_output=True,
             text=True,
-            timeout=30,
+            timeout=300,
         )
 
     def test_script(self):
