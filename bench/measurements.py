@@ -99,7 +99,7 @@ def to_the_end(bench):
 
 
 def patch_sweep(bench):
-    """`endoflow sweep` over 11 patch radii to budding or 3 µs, all cores; with --quick over 3 radii to 0.1 µs."""
+    """`endoflow sweep` over 11 patch radii to budding or 3 µs, all cores, with its table and plots; --quick: 3 radii to 0.1 µs."""
     radii, end = ("20:60:20", 0.1) if bench.quick else ("20:60:4", 3)
     directory = bench.output / "runs" / "patch_sweep"
     shutil.rmtree(directory, ignore_errors=True)
