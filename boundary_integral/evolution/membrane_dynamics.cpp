@@ -108,8 +108,7 @@ Evaluation MembraneDynamics::evaluate(const Eigen::VectorXd& y,
     const double rim_energy_density =
         space_.end() == CurveEnd::clamped ? energy_density_at_rim(space_, state, model_) : 0.0;
     e.flow = flow_->solve(*e.operators, e.samples, e.energy, rim_energy_density);
-    const Eigen::VectorXd tangential = mesh_.tangential_velocity(state, samples, e.flow.velocity, e.flow.inflow,
-                                                                 mesh_.relaxation_rate(e.flow.velocity));
+    const Eigen::VectorXd tangential = mesh_.tangential_velocity(state, samples, e.flow.velocity, e.flow.inflow);
     e.mesh_velocity = e.flow.velocity + tangential;
     const Eigen::VectorXd t_r = tangential.head(space_.radial_count());
     const Eigen::VectorXd t_z = tangential.tail(space_.axial_count());
@@ -143,15 +142,11 @@ Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
         velocity_curve -= response * schur.solve(constraint * velocity_curve + variation);
         velocity_c -= response * schur.solve(constraint * velocity_c);
     }
-    const double relaxation = mesh_.relaxation_rate(e.flow.velocity);
-    const MeshMotion::Derivatives mesh =
-        mesh_.derivatives(e.state, e.samples, e.flow.velocity, e.flow.inflow, relaxation);
-    const Eigen::RowVectorXd rate_by_velocity = mesh_.rate_by_velocity(e.flow.velocity);
+    const MeshMotion::Derivatives mesh = mesh_.derivatives(e.state, e.samples, e.flow.velocity, e.flow.inflow);
     // Variations of the tangential velocity of the mesh and of its whole velocity.
     const auto tangential = [&](const Eigen::MatrixXd& velocity, const Eigen::MatrixXd& direct) {
         Eigen::MatrixXd result = direct;
         if (freedoms.inflow) result.noalias() += mesh.by_inflow * velocity.row(space_.radial_count() - 1);
-        result.noalias() += mesh.by_rate * (rate_by_velocity * velocity).eval();
         if (mesh.by_velocity.size() > 0) result.noalias() += mesh.by_velocity * velocity;
         return result;
     };

@@ -25,10 +25,6 @@ Eigen::MatrixXd one_dimensional_matrix(const MembraneSpace& space, const std::ve
     return matrix;
 }
 
-// The relaxation's rate falls to a tenth for a membrane that moves much slower than this.
-constexpr double slow_speed = 1.0;  // nm/us
-constexpr double at_rest = 0.1;
-
 double inflow_profile(double xi) {
     return xi * xi * xi * xi * xi;
 }
@@ -52,42 +48,6 @@ MeshMotion::MeshMotion(const MembraneSpace& space, const MeshDensity& density, M
     if (space.end() == CurveEnd::clamped) {
         identity_ = Eigen::Map<const Eigen::VectorXd>(radial_points_.data(), space.radial_count());
     }
-}
-
-double MeshMotion::mean_speed(const Eigen::VectorXd& velocity) const {
-    const Eigen::VectorXd u_r = velocity.head(space_.radial_count()), u_z = velocity.tail(space_.axial_count());
-    double squared = 0.0;
-    for (std::size_t i = 0; i < space_.xi.size(); ++i) {
-        const double r = space_.radial_rows[i].evaluate(u_r), z = space_.axial_rows[i].evaluate(u_z);
-        squared += space_.weight[i] * (r * r + z * z);
-    }
-    return std::sqrt(squared);
-}
-
-double MeshMotion::relaxation_rate(const Eigen::VectorXd& velocity) const {
-    const double speed = mean_speed(velocity);
-    return (at_rest + (1.0 - at_rest) * speed / (speed + slow_speed)) / density_.relaxation_time;
-}
-
-Eigen::RowVectorXd MeshMotion::rate_by_velocity(const Eigen::VectorXd& velocity) const {
-    const double speed = mean_speed(velocity);
-    Eigen::RowVectorXd derivative = Eigen::RowVectorXd::Zero(space_.curve_count());
-    if (speed == 0.0) return derivative;
-    const double by_speed =
-        (1.0 - at_rest) * slow_speed / ((speed + slow_speed) * (speed + slow_speed) * density_.relaxation_time);
-    const Index offset = space_.radial_count();
-    const Eigen::VectorXd u_r = velocity.head(offset), u_z = velocity.tail(space_.axial_count());
-    for (std::size_t i = 0; i < space_.xi.size(); ++i) {
-        const BasisRow& radial = space_.radial_rows[i];
-        const BasisRow& axial = space_.axial_rows[i];
-        const double factor = space_.weight[i] * by_speed / speed;
-        const double r = factor * radial.evaluate(u_r), z = factor * axial.evaluate(u_z);
-        for (std::size_t j = 0; j < 6; ++j) {
-            derivative[radial.index[j]] += r * radial.value[0][j];
-            derivative[offset + axial.index[j]] += z * axial.value[0][j];
-        }
-    }
-    return derivative;
 }
 
 double MeshMotion::wanted_density(const CurvePoint& p, double c) const {
@@ -154,18 +114,18 @@ MeshMotion::Slip MeshMotion::slip(double xi, const CurvePoint& p, double u_r, do
 }
 
 Eigen::VectorXd MeshMotion::tangential_velocity(const MembraneState& state, const MembraneSamples& samples,
-                                                const Eigen::VectorXd& velocity, double inflow, double rate) const {
+                                                const Eigen::VectorXd& velocity, double inflow) const {
     const Eigen::VectorXd ahead = numbers_ahead(samples);
     const Eigen::VectorXd u_r = velocity.head(space_.radial_count()), u_z = velocity.tail(space_.axial_count());
     return interpolate_tangential(state, [&](double xi, const CurvePoint& p) {
         const BasisRow b = space_.radial().basis(xi);
         return slip(xi, p, b.evaluate(u_r), space_.axial().basis(xi).evaluate(u_z), inflow).speed -
-               b.evaluate(ahead, 0) * p.g * rate / (1.0 + b.evaluate(ahead, 1));
+               b.evaluate(ahead, 0) * p.g / (density_.relaxation_time * (1.0 + b.evaluate(ahead, 1)));
     });
 }
 
 MeshMotion::Derivatives MeshMotion::derivatives(const MembraneState& state, const MembraneSamples& samples,
-                                                const Eigen::VectorXd& velocity, double inflow, double rate) const {
+                                                const Eigen::VectorXd& velocity, double inflow) const {
     const Index offset = space_.radial_count(), curve = space_.curve_count(), axial_count = space_.axial_count();
     const Index variables = curve + axial_count;  // (r, z, c) coefficients
     const double length = density_.curvature_length;
@@ -219,10 +179,12 @@ MeshMotion::Derivatives MeshMotion::derivatives(const MembraneState& state, cons
     const Eigen::MatrixXd variation =
         (antiderivative_.solve(std::move(right)) - (ahead_of_xi + identity_) * total_variation) / total;
 
-    // alpha t = alpha_0 x'/g - rate (N - xi) x'/N' at the interpolation points, by (r, z, c), by the velocity (both
-    // components), by the inflow and by the rate.
-    const Index by_velocity = variables, by_inflow = variables + curve, by_rate = by_inflow + 1;
-    Eigen::MatrixXd r = Eigen::MatrixXd::Zero(offset, by_rate + 1), z = Eigen::MatrixXd::Zero(axial_count, by_rate + 1);
+    // alpha t = alpha_0 x'/g - (N - xi) x'/(tau N') at the interpolation points, by (r, z, c), by the velocity (both
+    // components) and by the inflow.
+    const Index by_velocity = variables, by_inflow = variables + curve;
+    const double rate = 1.0 / density_.relaxation_time;
+    Eigen::MatrixXd r = Eigen::MatrixXd::Zero(offset, by_inflow + 1),
+                    z = Eigen::MatrixXd::Zero(axial_count, by_inflow + 1);
     const Eigen::VectorXd u_r = velocity.head(offset), u_z = velocity.tail(axial_count);
     const auto fill = [&](double xi, bool radial, auto row) {
         const BasisRow b = space_.radial().basis(xi);
@@ -245,20 +207,18 @@ MeshMotion::Derivatives MeshMotion::derivatives(const MembraneState& state, cons
             row(by_velocity + offset + a.index[j]) += tangent * s.by_u_z * a.value[0][j];
         }
         row(by_inflow) = tangent * s.by_inflow;
-        row(by_rate) = -ahead * component / slope;
     };
     for (std::size_t i = 0; i < radial_points_.size(); ++i) fill(radial_points_[i], true, r.row(static_cast<Index>(i)));
     for (std::size_t i = 0; i < axial_points_.size(); ++i) fill(axial_points_[i], false, z.row(static_cast<Index>(i)));
     radial_interpolation_.solve_in_place(r);
     axial_interpolation_.solve_in_place(z);
-    Eigen::MatrixXd all(curve, by_rate + 1);
+    Eigen::MatrixXd all(curve, by_inflow + 1);
     all << r, z;
     Derivatives result;
     result.by_curve = all.leftCols(curve);
     result.by_concentration = all.middleCols(curve, axial_count);
     if (carrier_ == MeshCarrier::normal_motion) result.by_velocity = all.middleCols(by_velocity, curve);
     result.by_inflow = all.col(by_inflow);
-    result.by_rate = all.col(by_rate);
     return result;
 }
 

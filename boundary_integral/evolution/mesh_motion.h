@@ -26,29 +26,21 @@ class MeshMotion {
   public:
     MeshMotion(const MembraneSpace& space, const MeshDensity& density, MeshCarrier carrier);
 
-    // Rate of the relaxation [1/us] for a membrane with this velocity (curve_count): 1/tau in motion, a tenth of it at
-    // rest. The mesh has to follow a membrane that moves, and must not be stiff on one that hardly does.
-    double relaxation_rate(const Eigen::VectorXd& velocity) const;
-
     // Tangential velocity field added to the material velocity, as coefficients (curve_count), nm/us:
-    //     alpha t,  alpha = alpha_0 - rate (N - xi) g / N',  alpha_0 = -inflow xi^5 or -u.t
+    //     alpha t,  alpha = alpha_0 - (N - xi) g / (tau N'),  alpha_0 = -inflow xi^5 or -u.t
     // N(xi): fraction of elements the density wants between the axis and xi; N(1) = 1.
     Eigen::VectorXd tangential_velocity(const MembraneState& state, const MembraneSamples& samples,
-                                        const Eigen::VectorXd& velocity, double inflow, double rate) const;
+                                        const Eigen::VectorXd& velocity, double inflow) const;
 
     // Its derivatives.
     struct Derivatives {
-        Eigen::MatrixXd by_curve;          // curve_count x curve_count, at fixed c(xi), velocity, inflow and rate
+        Eigen::MatrixXd by_curve;          // curve_count x curve_count, at fixed c(xi), velocity and inflow
         Eigen::MatrixXd by_concentration;  // curve_count x axial_count
         Eigen::VectorXd by_inflow;         // curve_count; zero when the mesh follows the normal motion
         Eigen::MatrixXd by_velocity;       // curve_count x curve_count; empty when the mesh follows the material
-        Eigen::VectorXd by_rate;           // curve_count
     };
     Derivatives derivatives(const MembraneState& state, const MembraneSamples& samples, const Eigen::VectorXd& velocity,
-                            double inflow, double rate) const;
-
-    // d(relaxation_rate)/d(velocity), curve_count.
-    Eigen::RowVectorXd rate_by_velocity(const Eigen::VectorXd& velocity) const;
+                            double inflow) const;
 
     // N - xi as radial coefficients.
     Eigen::VectorXd numbers_ahead(const MembraneSamples& samples) const;
@@ -61,7 +53,6 @@ class MeshMotion {
     LuFactors radial_interpolation_, axial_interpolation_, filter_, antiderivative_;
     Eigen::VectorXd identity_;  // xi itself in the radial space, as far as its ends let it
 
-    double mean_speed(const Eigen::VectorXd& velocity) const;
     double wanted_density(const CurvePoint& p, double c) const;
     std::vector<double> filtered_density(const MembraneSamples& samples) const;  // at the Gauss points
     // What carries the mesh off the material at one point, and its derivatives by x' and u.

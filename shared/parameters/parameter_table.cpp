@@ -32,7 +32,7 @@ struct EnumNames<Transport> {
 };
 template <>
 struct EnumNames<PhaseFieldScheme> {
-    static constexpr std::array names{"paper"};
+    static constexpr std::array names{"production", "paper"};
 };
 template <>
 struct EnumNames<ViscosityMean> {
@@ -173,7 +173,7 @@ std::vector<ParameterRow> phase_field_rows() {
     using S = PhaseFieldParameters;
     return {
         row("phase_field", "scheme", &P::phase_field, &S::scheme, "", any(), "",
-            "time integration: paper = the first-order splitting of Sec. 3"),
+            "production = everything implicit, BDF2 with error control; paper = the first-order splitting of Sec. 3"),
         row("phase_field", "epsilon", &P::phase_field, &S::epsilon, "nm", positive(1e3), "ε", "interface thickness"),
         row("phase_field", "mobility", &P::phase_field, &S::mobility, "nm^2/(pN µs)", at_least(0, 1e6), "γ",
             "mobility of the phase field in (35); Table 1's 6.4 nm^3/s is 6.4e-6 nm^2/(pN µs)"),
@@ -191,8 +191,8 @@ std::vector<ParameterRow> phase_field_rows() {
             "weight of the new φ and f in the membrane's forces; 0 = old ones as printed, 1 = exact balance of forces"),
         row("phase_field", "viscosity_mean", &P::phase_field, &S::viscosity_mean, "", any(), "ν(φ)",
             "how the viscosity changes across the layer: arithmetic (the paper) or harmonic"),
-        row("phase_field", "cell_size", &P::phase_field, &S::cell_size, "nm", positive(1e3), "h",
-            "size of the cells at the membrane"),
+        row("phase_field", "cell_size", &P::phase_field, &S::cell_size, "nm", at_least(0, 1e3), "h",
+            "size of the cells at the membrane; 0 = chosen by the scheme from ε and ε_c"),
         row("phase_field", "far_refinements", &P::phase_field, &S::far_refinements, "", at_least(0, 6), "",
             "cells far from the membrane are 2^this times larger; the paper: 3"),
         row("phase_field", "band_width", &P::phase_field, &S::band_width, "", at_least(2, 20), "",
@@ -210,7 +210,17 @@ std::vector<ParameterRow> phase_field_rows() {
         row("phase_field", "max_step", &P::phase_field, &S::max_step, "µs", positive(1e6), "τ_max",
             "largest time step of the phase-field engine (time.max_step holds as well); the paper: 2e-3"),
         row("phase_field", "max_motion", &P::phase_field, &S::max_motion, "nm", positive(1e3), "",
-            "largest motion of the membrane within one time step"),
+            "largest motion of the membrane within one time step of scheme paper"),
+        row("phase_field", "profile_relaxation", &P::phase_field, &S::profile_relaxation, "nm/µs", positive(1e9), "M",
+            "scheme production: flux along the normal that keeps |∇ψ| = 1 without moving the membrane"),
+        row("phase_field", "tension_alignment", &P::phase_field, &S::tension_alignment, "nm^3/(pN µs)", positive(1e9),
+            "", "scheme production: keeps λ constant across the layer"),
+        row("phase_field", "tension_leak", &P::phase_field, &S::tension_leak, "nm^3/(pN µs)", positive(1e6), "",
+            "scheme production: defines λ far from the layer; as small as it is, it leaks no area"),
+        row("phase_field", "strain_relaxation", &P::phase_field, &S::strain_relaxation, "1/µs", at_least(0, 1e6), "ζ",
+            "scheme production: rate at which accumulated area strain s - 1 is removed"),
+        row("phase_field", "stretching_alignment", &P::phase_field, &S::stretching_alignment, "nm^2/µs", positive(1e12),
+            "", "scheme production: keeps s constant across the layer"),
     };
 }
 
@@ -231,7 +241,7 @@ std::vector<ParameterRow> boundary_integral_rows() {
             "part of the mesh over which the element density is filtered, so that neighbours are similar"),
         row("boundary_integral", "mesh_relaxation_time", &P::boundary_integral, &S::mesh_relaxation_time, "µs",
             positive(1e3), "",
-            "time in which elements move to where they are wanted; ten times that when the membrane rests"),
+            "time in which elements move to where they are wanted"),
         row("boundary_integral", "neck_closed_radius", &P::boundary_integral, &S::neck_closed_radius, "nm",
             at_least(0, 10), "", "the run ends with neck_closed when the neck radius falls below this"),
         row("boundary_integral", "field_spacing", &P::boundary_integral, &S::field_spacing, "nm", {0.1, 1e3}, "",

@@ -12,7 +12,7 @@ enum class Dynamics { flow, geometric };
 enum class CurvatureConvention { as_printed, consistent };
 enum class ConstitutiveLaw { linear, coarse_grained, lumped };
 enum class Transport { cahn_hilliard, fickian, advection };
-enum class PhaseFieldScheme { paper };
+enum class PhaseFieldScheme { production, paper };
 enum class ViscosityMean { arithmetic, harmonic };
 
 struct CaseParameters {
@@ -59,7 +59,7 @@ struct MoleculeParameters {
 };
 
 struct PhaseFieldParameters {
-    PhaseFieldScheme scheme = PhaseFieldScheme::paper;
+    PhaseFieldScheme scheme = PhaseFieldScheme::production;
     double epsilon = 1.2;
     double mobility = 0.0064;
     double tension_extension = 0.390625;
@@ -69,7 +69,7 @@ struct PhaseFieldParameters {
     double advection_centering = 0.5;
     double force_centering = 1;
     ViscosityMean viscosity_mean = ViscosityMean::arithmetic;
-    double cell_size = 1.25;
+    double cell_size = 0;
     int far_refinements = 3;
     double band_width = 4.5;
     int degree = 3;
@@ -79,6 +79,11 @@ struct PhaseFieldParameters {
     int ramp_steps = 10;
     double max_step = 2e-3;
     double max_motion = 0.3;
+    double profile_relaxation = 2e5;
+    double tension_alignment = 1e4;
+    double tension_leak = 1e-2;
+    double strain_relaxation = 20;
+    double stretching_alignment = 1e6;
 };
 
 struct BoundaryIntegralParameters {
@@ -88,7 +93,7 @@ struct BoundaryIntegralParameters {
     double mesh_curvature_length = 8;
     double mesh_edge_weight = 4;
     double mesh_smoothing = 0.05;
-    double mesh_relaxation_time = 0.02;
+    double mesh_relaxation_time = 0.002;
     double neck_closed_radius = 0.5;
     double field_spacing = 2;
 };
