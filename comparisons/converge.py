@@ -8,7 +8,6 @@ plots and report.html. Exit codes: 0 done; 2 bad command line or parameter; 3 a 
 
 import json
 import sys
-from pathlib import Path
 
 import project_path  # noqa: F401
 from commands import BAD_INPUT, RUN_FAILED, start

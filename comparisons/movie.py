@@ -19,14 +19,10 @@ def parsed(arguments):
         prog="endoflow movie", description="Make a film of a run (needs ffmpeg).", allow_abbrev=False
     )
     parser.add_argument("directory", metavar="DIR", type=Path, help="directory of a run")
-    parser.add_argument(
-        "-o", "--output", metavar="FILE", type=Path, help="film, .mp4 or .gif (default: DIR/movie.mp4)"
-    )
+    parser.add_argument("-o", "--output", metavar="FILE", type=Path, help="film, .mp4 or .gif (default: DIR/movie.mp4)")
     parser.add_argument("--seconds", type=positive_integer, default=10, help="length (default: %(default)s)")
     parser.add_argument("--fps", type=positive_integer, default=25, help="frames per second (default: %(default)s)")
-    parser.add_argument(
-        "--width", type=positive_integer, default=1280, help="width in pixels (default: %(default)s)"
-    )
+    parser.add_argument("--width", type=positive_integer, default=1280, help="width in pixels (default: %(default)s)")
     return parser.parse_args(arguments)
 
 

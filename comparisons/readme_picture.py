@@ -71,7 +71,9 @@ def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("a", type=Path, metavar="DIR_A")
     parser.add_argument("b", type=Path, metavar="DIR_B")
-    parser.add_argument("-o", "--output", type=Path, default=Path(__file__).resolve().parents[1] / "docs" / "images" / "hero.png")
+    parser.add_argument(
+        "-o", "--output", type=Path, default=Path(__file__).resolve().parents[1] / "docs" / "images" / "hero.png"
+    )
     options = parser.parse_args(arguments)
 
     import endoflow

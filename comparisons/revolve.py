@@ -23,7 +23,9 @@ def parsed(arguments):
         prog="endoflow revolve", description="Revolve a run's membrane for ParaView.", allow_abbrev=False
     )
     parser.add_argument("directory", metavar="DIR", type=Path, help="directory of a run")
-    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="where to write (default: the run's directory)")
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", type=Path, help="where to write (default: the run's directory)"
+    )
     parser.add_argument(
         "--angle", type=positive_integer, default=270, help="degrees, 360 closes the surface (default: %(default)s)"
     )

@@ -3,7 +3,18 @@
 import style
 
 from .histories import history_figure
-from .item import Printed, Result, both_engines, end_of, final_value, is_run, not_run_remarks, quick_remark, text, value_at
+from .item import (
+    Printed,
+    Result,
+    both_engines,
+    end_of,
+    final_value,
+    is_run,
+    not_run_remarks,
+    quick_remark,
+    text,
+    value_at,
+)
 from .snapshots import snapshots
 
 TITLE = "Fig. 3: Cahn–Hilliard and Fickian transport"
@@ -60,7 +71,11 @@ def result(runs, quick):
         return {e: " / ".join(text(of[t, e][column], digits) for t in TRANSPORTS) for e in engines}
 
     printed = [
-        Printed("dynamics: budding time, µs (Cahn–Hilliard / Fickian)", "faster with Cahn–Hilliard", beside("budding_time_us")),
+        Printed(
+            "dynamics: budding time, µs (Cahn–Hilliard / Fickian)",
+            "faster with Cahn–Hilliard",
+            beside("budding_time_us"),
+        ),
         Printed("smallest neck radius, nm", "smaller with Cahn–Hilliard", beside("smallest_neck_radius_nm", 3)),
         Printed("neck radius at 0.5 µs, nm", "–", beside("neck_radius_at_0.5_us_nm")),
         Printed("end of the run, µs", "– / 36.0", beside("end_us")),
@@ -75,7 +90,11 @@ def result(runs, quick):
         *quick_remark(quick),
         *not_run_remarks(runs),
     ]
-    names = {(name, engine): f"{title}, {style.ENGINE_NAMES[engine]}" for name, title in TRANSPORTS.items() for engine in engines}
+    names = {
+        (name, engine): f"{title}, {style.ENGINE_NAMES[engine]}"
+        for name, title in TRANSPORTS.items()
+        for engine in engines
+    }
     figures = {
         "fig3": ("Membranes coloured by c", snapshots(runs, TIMES, TRANSPORTS)),
         "fig3_histories": ("Neck radius and height", history_figure(runs, names)),

@@ -5,7 +5,19 @@ import numpy as np
 import style
 
 from .histories import history_figure
-from .item import NECK_CLOSED, QUICK_LAYER, Printed, Result, both_engines, end_of, final_value, is_run, not_run_remarks, quick_remark, text
+from .item import (
+    NECK_CLOSED,
+    QUICK_LAYER,
+    Printed,
+    Result,
+    both_engines,
+    end_of,
+    final_value,
+    is_run,
+    not_run_remarks,
+    quick_remark,
+    text,
+)
 from .snapshots import membrane_in_fluid, moving_membrane, snapshots
 
 TITLE = "Fig. 4: without flow and with flow"
@@ -114,7 +126,9 @@ def result(runs, quick):
         *not_run_remarks(runs),
     ]
     names = {
-        (name, engine): f"{title}, {style.ENGINE_NAMES[engine]}" for name, title in DYNAMICS.items() for engine in engines
+        (name, engine): f"{title}, {style.ENGINE_NAMES[engine]}"
+        for name, title in DYNAMICS.items()
+        for engine in engines
     }
     figures = {
         "fig4": ("At the paper's times", snapshots(runs, style.PAPER_TIMES, DYNAMICS, membrane_in_fluid)),

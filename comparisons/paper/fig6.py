@@ -67,10 +67,18 @@ def result(runs, quick):
     at_36 = {r["engine"]: r["bud_diameter_nm"] for r in rows if r["patch_radius_nm"] == PAPER_RADIUS}
     linear = {e: "–" if f is None else f"{f[0]:.3g} r_c + {f[1]:.3g} nm, R² = {f[2]:.4f}" for e, f in fits.items()}
     printed = [
-        Printed("diameter at r_c = 36 nm, nm", "≈ 42 (the vesicle that buds fastest)", {e: text(v, 4) for e, v in at_36.items()}),
+        Printed(
+            "diameter at r_c = 36 nm, nm",
+            "≈ 42 (the vesicle that buds fastest)",
+            {e: text(v, 4) for e, v in at_36.items()},
+        ),
         Printed("diameter against r_c", "a linear function", linear),
         *(
-            Printed(f"patch radius of the smallest neck {when}, nm", "40", {e: neck_minimum(rows, e, column) for e in engines})
+            Printed(
+                f"patch radius of the smallest neck {when}, nm",
+                "40",
+                {e: neck_minimum(rows, e, column) for e in engines},
+            )
             for when, column in ((f"at {EARLY:g} µs", "neck_radius_at_1_us_nm"), ("at the end", "neck_radius_nm"))
         ),
     ]

@@ -56,7 +56,11 @@ def fastest(rows, engine):
         return "–", "–", "–"
     slope = 0.0 if len(radius) < 2 else float((diameter[-1] - diameter[0]) / (radius[-1] - radius[0]))
     nearest = int(abs(radius - found[0]).argmin())
-    return text(found[0], 3), text(found[1], 4), text(float(diameter[nearest] + slope * (found[0] - radius[nearest])), 3)
+    return (
+        text(found[0], 3),
+        text(found[1], 4),
+        text(float(diameter[nearest] + slope * (found[0] - radius[nearest])), 3),
+    )
 
 
 def result(runs, quick):
@@ -70,7 +74,11 @@ def result(runs, quick):
 
     printed = [
         Printed("fastest patch, radius in nm", str(PAPER_FASTEST), {e: v[0] for e, v in found.items()}),
-        Printed("its vesicle's diameter, nm", f"≈ {PAPER_DIAMETER:g} (experiment {EXPERIMENT})", {e: v[2] for e, v in found.items()}),
+        Printed(
+            "its vesicle's diameter, nm",
+            f"≈ {PAPER_DIAMETER:g} (experiment {EXPERIMENT})",
+            {e: v[2] for e, v in found.items()},
+        ),
         Printed("its budding time, µs", "– (in the plot only)", {e: v[1] for e, v in found.items()}),
         Printed("budding time at 36 nm, µs", "– (in the plot only)", at_36("budding_time_us")),
         Printed("diameter at budding, 36 nm", f"≈ {PAPER_DIAMETER:g} nm", at_36("diameter_at_budding_nm")),

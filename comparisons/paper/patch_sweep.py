@@ -47,7 +47,7 @@ def underside(shape, neck):
 
 
 def morphology(shape):
-    """"no neck", "spherical" or "mushroom" (its underside rises by more than DENT), of a Shape."""
+    """ "no neck", "spherical" or "mushroom" (its underside rises by more than DENT), of a Shape."""
     neck = neck_index(shape)
     if neck is None:
         return "no neck"
@@ -100,7 +100,9 @@ def table(runs):
 
 def of_engine(rows, engine, column):
     """(radii, values) of an engine's rows that have a value."""
-    found = [(row["patch_radius_nm"], row[column]) for row in rows if row["engine"] == engine and row[column] is not None]
+    found = [
+        (row["patch_radius_nm"], row[column]) for row in rows if row["engine"] == engine and row[column] is not None
+    ]
     return np.array(found, dtype=float).reshape(-1, 2).T
 
 

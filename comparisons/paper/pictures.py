@@ -68,7 +68,14 @@ def gallery(rows, margin=7.0):
 def _say(axes, sentence):
     """A sentence in an empty panel."""
     axes.text(
-        0.5, 0.5, textwrap.fill(sentence, WRAP), transform=axes.transAxes, ha="center", va="center", color=MUTED, size=7.5
+        0.5,
+        0.5,
+        textwrap.fill(sentence, WRAP),
+        transform=axes.transAxes,
+        ha="center",
+        va="center",
+        color=MUTED,
+        size=7.5,
     )
     axes.grid(False)
 

@@ -93,7 +93,9 @@ def result(runs, quick):
                 )
     known = [value for value in area.values() if value is not None]
     mean = sum(known) / len(known) if known else None
-    printed.append(Printed(f"area at {end:g} µs, nm²", f"≈ {PAPER_AREA:g} at {TIME:g} µs", {PHASE_FIELD: text(mean, 5)}))
+    printed.append(
+        Printed(f"area at {end:g} µs, nm²", f"≈ {PAPER_AREA:g} at {TIME:g} µs", {PHASE_FIELD: text(mean, 5)})
+    )
     remarks = [
         "γ: Table 1's 6.4 nm³/s lacks a unit of energy. Read as 6.4·10⁻⁶ nm²/(pN µs) the phase field is purely advected; "
         f"the runs here take {MOBILITY_PER_PRINTED:g} nm²/(pN µs) for each printed nm³/s, the engine's default, which is "

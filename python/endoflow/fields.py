@@ -10,7 +10,15 @@ import numpy as np
 from .errors import RERUN, RunDirectoryError
 
 #: Number types of a .vtu file as numpy writes them, little-endian.
-KINDS = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "Int64": "<i8", "UInt8": "u1", "UInt32": "<u4", "UInt64": "<u8"}
+KINDS = {
+    "Float32": "<f4",
+    "Float64": "<f8",
+    "Int32": "<i4",
+    "Int64": "<i8",
+    "UInt8": "u1",
+    "UInt32": "<u4",
+    "UInt64": "<u8",
+}
 
 
 @dataclass(frozen=True)

@@ -97,7 +97,9 @@ def note(output, state):
 def main():
     words, settings, output, flags = options(sys.argv[1:])
     if words[0] == "laws":
-        laws = [f"{law}_{column}" for law in ("linear", "coarse-grained", "lumped") for column in ("b_pN_nm", "H0_per_nm")]
+        laws = [
+            f"{law}_{column}" for law in ("linear", "coarse-grained", "lumped") for column in ("b_pN_nm", "H0_per_nm")
+        ]
         print(",".join(["c", *laws]))
         for c in (0, 0.5, 1):
             print(",".join([str(c), *(f"{100 + 1100 * c},{c / 14.1}" for _ in range(3))]))

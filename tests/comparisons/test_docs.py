@@ -44,7 +44,9 @@ class Pages(unittest.TestCase):
     @unittest.skipUnless(PROGRAM and Path(PROGRAM).exists(), "ENDOFLOW_PROGRAM names no program")
     def test_every_command_parses(self):
         process = subprocess.run(
-            [sys.executable, str(TOOLS / "check.py"), str(Path(PROGRAM).parent), "--parse"], capture_output=True, text=True
+            [sys.executable, str(TOOLS / "check.py"), str(Path(PROGRAM).parent), "--parse"],
+            capture_output=True,
+            text=True,
         )
         self.assertEqual((process.returncode, process.stderr.strip()), (0, ""))
         self.assertRegex(process.stdout, r"0 blocks run, \d\d+ parsed, 0 failed")
@@ -78,7 +80,9 @@ class Checker(unittest.TestCase):
         return path
 
     def test_blocks_and_marks(self):
-        page = self.page("<!-- fails with 2: why -->\n```sh\nfalse\n```\n\n    build/endoflow check x \\\n        --json\n")
+        page = self.page(
+            "<!-- fails with 2: why -->\n```sh\nfalse\n```\n\n    build/endoflow check x \\\n        --json\n"
+        )
         found = [(block.kind, block.mark, block.text) for block in blocks(page)]
         indented = "build/endoflow check x \\\n        --json\n"
         self.assertEqual(found, [("sh", "fails with 2: why", "false\n"), ("sh", "parse only: indented", indented)])

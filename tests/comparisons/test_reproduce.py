@@ -55,7 +55,9 @@ class Reproduce(StudyTest):
         self.assertEqual((process.returncode, process.stderr), (0, ""))
         self.assertEqual(self.runs(), [], "runs that went on longer serve as well")
         self.reproduce("figA2", "--until", "1")
-        left = [f"p/runs/standard,constitutive_law={law}/boundary-integral fresh" for law in ("coarse-grained", "lumped")]
+        left = [
+            f"p/runs/standard,constitutive_law={law}/boundary-integral fresh" for law in ("coarse-grained", "lumped")
+        ]
         self.assertEqual(self.runs(), left, "the linear law is the standard case")
 
     def test_table_of_fig7(self):
@@ -105,12 +107,16 @@ class Reproduce(StudyTest):
         self.assertEqual(rows["ε", "2.4"]["paper_change_percent"], "8.53")
         self.assertEqual(rows["ε", "1.2"]["change_percent"], "0")
         areas = [float(rows["ε", value]["area_nm2"]) for value in ("2.4", "1.2")]
-        self.assertAlmostEqual(float(rows["ε", "2.4"]["change_percent"]), 100 * abs(areas[0] - areas[1]) / areas[1], places=6)
+        self.assertAlmostEqual(
+            float(rows["ε", "2.4"]["change_percent"]), 100 * abs(areas[0] - areas[1]) / areas[1], places=6
+        )
 
     def test_bad_command_lines(self):
         self.assertEqual(self.reproduce("fig2").returncode, 2)
         self.assertEqual(self.reproduce("fig3", "--quick", "--full").returncode, 2)
-        self.assert_one_line(self.reproduce("fig3", "--set", "epsilon=1"), 2, "--set epsilon: it must read section.key=value")
+        self.assert_one_line(
+            self.reproduce("fig3", "--set", "epsilon=1"), 2, "--set epsilon: it must read section.key=value"
+        )
 
 
 class PinchOff(unittest.TestCase):

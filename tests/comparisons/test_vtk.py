@@ -102,7 +102,10 @@ class RevolvedMembrane(unittest.TestCase):
     def revolve(self, *arguments):
         script = locations.ROOT / "comparisons" / "revolve.py"
         return subprocess.run(
-            [sys.executable, str(script), str(self.run_), *map(str, arguments)], capture_output=True, text=True, timeout=60
+            [sys.executable, str(script), str(self.run_), *map(str, arguments)],
+            capture_output=True,
+            text=True,
+            timeout=60,
         )
 
     def test_surface(self):

@@ -19,11 +19,25 @@ PARAMETERS = "parameters"
 
 def pandoc(text, target, page_title, navigation, depth):
     """Write Markdown text as the HTML page target (Path)."""
-    command = ["pandoc", "--from=gfm+tex_math_dollars", "--to=html5", "--standalone", "--mathml", "--toc", "--toc-depth=2"]
-    command += [f"--lua-filter={HERE / 'links.lua'}", f"--template={HERE / 'page.html'}", f"--metadata=title:{page_title}"]
+    command = [
+        "pandoc",
+        "--from=gfm+tex_math_dollars",
+        "--to=html5",
+        "--standalone",
+        "--mathml",
+        "--toc",
+        "--toc-depth=2",
+    ]
+    command += [
+        f"--lua-filter={HERE / 'links.lua'}",
+        f"--template={HERE / 'page.html'}",
+        f"--metadata=title:{page_title}",
+    ]
     command += [f"--variable=root:{'../' * depth}", f"--output={target}"]
     environment = {**os.environ, "ENDOFLOW_DOCS_UP": os.path.relpath(ROOT / "docs", target.parents[depth])}
-    subprocess.run([*command, f"--variable=navigation:{navigation}"], input=text, text=True, check=True, env=environment)
+    subprocess.run(
+        [*command, f"--variable=navigation:{navigation}"], input=text, text=True, check=True, env=environment
+    )
 
 
 def navigation(entries, current, depth):

@@ -40,7 +40,9 @@ def environment(build):
 def python_of(build):
     """The Python interpreter that CMake found for a build (Path)."""
     cache = build / "CMakeCache.txt"
-    found = re.search(r"^ENDOFLOW_PYTHON:\w+=(.*)$", cache.read_text(encoding="utf-8"), re.M) if cache.exists() else None
+    found = (
+        re.search(r"^ENDOFLOW_PYTHON:\w+=(.*)$", cache.read_text(encoding="utf-8"), re.M) if cache.exists() else None
+    )
     return found.group(1) if found else sys.executable
 
 
@@ -84,7 +86,11 @@ def unknown_options(words, build):
         return ""
     command = words[:2] if words[0] == "run" else words[:1]
     known = subprocess.run(
-        [str(build / "endoflow"), *command, "--help"], env=environment(build), capture_output=True, text=True, check=False
+        [str(build / "endoflow"), *command, "--help"],
+        env=environment(build),
+        capture_output=True,
+        text=True,
+        check=False,
     )
     if known.returncode:
         return f"endoflow {' '.join(command)} --help: {known.stderr.strip()}"
