@@ -35,6 +35,16 @@ class Pages(unittest.TestCase):
                     broken.append(f"{page.name}: {target}")
         self.assertEqual(broken, [])
 
+    def test_named_source_files_exist(self):
+        """In the pages that say which files to touch."""
+        missing = []
+        for name in ("architecture", "extending", "developer-guide", "case-files"):
+            text = (locations.ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8")
+            for path in re.findall(r"`((?:\w+/)+[\w*.-]*)`", text):
+                if not any(locations.ROOT.glob(path.rstrip("/"))) and not path.startswith(("build/", "out/")):
+                    missing.append(f"{name}.md: {path}")
+        self.assertEqual(missing, [])
+
     def test_every_page_is_listed(self):
         index = (locations.ROOT / "docs" / "index.md").read_text(encoding="utf-8")
         linked = {target.split("#")[0] for target in LINK.findall(index)}
