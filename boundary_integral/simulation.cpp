@@ -337,6 +337,13 @@ ExitReason simulate(const Parameters& parameters, RunOutput& output) {
     if (parameters.fluid.inertia) {
         throw InputError("fluid.inertia: the boundary-integral engine solves the Stokes equations; set it to false");
     }
+    const DomainParameters& domain = parameters.domain;
+    if (domain.kind == DomainKind::free_space && parameters.fluid.dynamics == Dynamics::flow &&
+        parameters.membrane.inextensible && domain.spheroid_polar_axis == domain.spheroid_equatorial_axis) {
+        throw InputError(
+            "domain.spheroid_polar_axis: an inextensible sphere keeps its shape; make it differ from "
+            "domain.spheroid_equatorial_axis");
+    }
     // Our own threads share the work; those of OpenBLAS would only spin beside them on matrices of this size.
     openblas_set_num_threads(1);
     return Run(parameters, output).execute();

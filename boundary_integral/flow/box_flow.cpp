@@ -10,7 +10,8 @@ namespace endoflow::boundary_integral {
 
 namespace {
 constexpr int nodes_per_wall_panel = 8;
-}
+constexpr Index elimination_blocks = 8;
+}  // namespace
 
 BoxFlow::BoxFlow(const Parameters& parameters, const MembraneSpace& space)
     : FlowModel(space, {parameters.membrane.inextensible, false}),
@@ -48,13 +49,19 @@ MobilityOperators BoxFlow::operators(const MembraneState& state, const MembraneS
     const RowMatrix from_walls = wall_layers(walls_, seen_by_walls, collocation_.rows(), threads_);
 
     // Z^T = A_w^-T W^T: one wall solve per membrane row serves both right-hand sides. The rows are independent of each
-    // other.
-    parallel_parts(collocation_.rows(), threads_, [&](Index begin, Index end) {
+    // other; they are cut into blocks that do not depend on the number of threads, so that results do not either.
+    const auto eliminate = [&](Index begin, Index end) {
         const Index count = end - begin;
         const Eigen::MatrixXd response =
             wall_factors_->solve_transposed(from_walls.middleRows(begin, count).transpose());
         equation.velocity.middleRows(begin, count).noalias() -= contrast * (response.transpose() * at_walls.doubled);
         equation.force.middleRows(begin, count).noalias() -= response.transpose() * at_walls.single;
+    };
+    const Index rows = collocation_.rows();
+    parallel_parts(elimination_blocks, threads_, [&](Index first, Index last) {
+        for (Index block = first; block < last; ++block) {
+            eliminate(rows * block / elimination_blocks, rows * (block + 1) / elimination_blocks);
+        }
     });
 
     MobilityOperators result;

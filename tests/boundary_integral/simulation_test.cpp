@@ -158,6 +158,22 @@ TEST_CASE("a restarted run makes the rows it would have made", "[run]") {
     }
 }
 
+TEST_CASE("the number of threads does not matter", "[run]") {
+    const ScratchDirectory one("one-thread"), three("three-threads");
+    Parameters parameters = standard(32, 0.005);
+    parameters.boundary_integral.threads = 1;
+    run(parameters, one.path);
+    parameters.boundary_integral.threads = 3;
+    run(parameters, three.path);
+    const Table a = read_table(one.path / "history.csv"), b = read_table(three.path / "history.csv");
+    REQUIRE(a.size() == b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        for (const auto& [column, value] : a[i]) {
+            if (column != "wall_s") CHECK(b[i].at(column) == value);
+        }
+    }
+}
+
 TEST_CASE("a restart after budding goes on through it", "[run]") {
     const ScratchDirectory whole("whole-budding"), halves("halves-budding");
     Parameters parameters = standard(32, 0.9);
@@ -257,5 +273,10 @@ TEST_CASE("what the engine does not offer is refused as input", "[run]") {
     const ScratchDirectory scratch("refused");
     Parameters parameters = standard(32, 0.001);
     parameters.fluid.inertia = true;
+    CHECK_THROWS_AS(run(parameters, scratch.path), InputError);
+
+    parameters.fluid.inertia = false;
+    parameters.domain.kind = DomainKind::free_space;
+    parameters.domain.spheroid_polar_axis = parameters.domain.spheroid_equatorial_axis = 50;
     CHECK_THROWS_AS(run(parameters, scratch.path), InputError);
 }
