@@ -117,7 +117,7 @@ def result(runs, quick):
         "The paper chose the mobility γ of the evolution without flow “so as to approximately synchronize” it with its "
         "flow; its value, 4.2 nm³/µs, lacks a unit of energy and is read as 4.2 nm²/(pN µs) here. A diffuse membrane then moves "
         "with (3ε/2√2) γ times the force per area, so the time of pinching off goes with 1/(γε); with --quick γε is kept, and the sharp membrane has that mobility too.",
-        "Without flow a diffuse membrane pinches off somewhat earlier than a sharp one: its layer closes the last nanometres.",
+        "Without flow a diffuse membrane may end earlier than a sharp one, since it cannot resolve a neck thinner than its layer.",
         "With flow, the sharp membrane's neck reaches 5 nm before the paper's first panel at 2.90 µs and keeps "
         "draining slowly; the paper's stops. A diffuse layer cannot show a neck much narrower than a few of its own "
         "thickness, which is 1.2 nm.",
