@@ -1,6 +1,8 @@
 #include "boundary_integral/flow/membrane_collocation.h"
 
+#include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "boundary_integral/flow/dense_solver.h"
 
@@ -68,9 +70,9 @@ std::vector<MembraneTarget> MembraneCollocation::targets(const MembraneState& st
 MembraneCollocation::Equation MembraneCollocation::equation(const MembraneState& state, const MembraneSamples& samples,
                                                             const std::vector<MembraneTarget>& targets,
                                                             const LayerQuadrature& quadrature) const {
-    MembraneLayers layers = membrane_layers(space_, state, samples, targets, rows(), quadrature);
+    const MembraneLayers layers = membrane_layers(space_, state, samples, targets, rows(), quadrature);
     return {4.0 * std::numbers::pi * (viscosity_below_ + viscosity_above_) * evaluation_ + contrast() * layers.doubled,
-            std::move(layers.single)};
+            layers.single};
 }
 
 void MembraneCollocation::solve(const Equation& equation, MobilityOperators& operators) const {
