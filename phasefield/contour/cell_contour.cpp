@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "phasefield/weak_forms/interface_geometry.h"
+
 namespace endoflow::phasefield {
 
 namespace {
@@ -14,15 +16,16 @@ double value_at(const dealii::FE_Q<2>& element, const std::vector<double>& coeff
 
 }  // namespace
 
-CellContour::CellContour(const Spaces& spaces, unsigned int subdivisions)
-    : spaces_(&spaces),
+CellContour::CellContour(const ContourFields& fields, unsigned int subdivisions)
+    : fields_(fields),
       subdivisions_(subdivisions),
-      phi_element_(spaces.flow.degrees[phi]),
-      velocity_element_(spaces.flow.degrees[u_r]),
-      tension_element_(spaces.flow.degrees[tension]),
-      molecule_element_(spaces.molecules.degrees[0]),
-      flow_values_(spaces.flow.element.n_dofs_per_cell()),
-      molecule_values_(spaces.molecules.element.n_dofs_per_cell()) {
+      phi_element_(fields.flow_space->degrees[fields.level_set]),
+      velocity_element_(fields.flow_space->degrees[fields.velocity_r]),
+      tension_element_(fields.flow_space->degrees[fields.tension]),
+      molecule_element_(fields.molecule_space->degrees[fields.concentration]),
+      curvature_element_(fields.flow_space->degrees[fields.curvature]),
+      flow_values_(fields.flow_space->element.n_dofs_per_cell()),
+      molecule_values_(fields.molecule_space->element.n_dofs_per_cell()) {
     for (unsigned int k = 0; k <= subdivisions; ++k)
         for (unsigned int i = 0; i <= subdivisions; ++i) {
             const dealii::Point<2> x(double(i) / subdivisions, double(k) / subdivisions);
@@ -34,6 +37,15 @@ CellContour::CellContour(const Spaces& spaces, unsigned int subdivisions)
 
 double CellContour::phi_at(double x, double y) const {
     return value_at(phi_element_, phi_, {x, y});
+}
+
+double CellContour::sharp_tension(const dealii::Point<2>& unit, double c) const {
+    const double tension = fields_.tension_factor * value_at(tension_element_, lambda_, unit);
+    if (fields_.model == nullptr) return tension;
+    const double clipped = clip_concentration(c);
+    const double K =
+        value_at(curvature_element_, curvature_, unit) + fields_.model->spontaneous_curvature(clipped).value;
+    return tension - 0.5 * fields_.model->stiffness(clipped).value * K * K;
 }
 
 ContourPoint CellContour::point(double x, double y) const {
@@ -48,11 +60,11 @@ ContourPoint CellContour::point(double x, double y) const {
         p.rz += phi_[j] * hessian[0][1] / (box_.hr * box_.hz);
         p.zz += phi_[j] * hessian[1][1] / (box_.hz * box_.hz);
     }
-    const double r = box_.r0 + x * box_.hr;
+    const double r = box_.r0 + x * box_.hr, c = value_at(molecule_element_, c_, unit);
     return {r,
             box_.z0 + y * box_.hz,
-            value_at(molecule_element_, c_, unit),
-            2 * value_at(tension_element_, lambda_, unit),
+            c,
+            sharp_tension(unit, c),
             -normal_divergence(p, r, 0),
             value_at(velocity_element_, u_r_, unit),
             value_at(velocity_element_, u_z_, unit)};
@@ -96,10 +108,10 @@ void CellContour::add_square(unsigned int i, unsigned int k, std::vector<Contour
     }
 }
 
-void CellContour::add_segments(const dealii::DoFHandler<2>::active_cell_iterator& flow_cell, const State& state,
+void CellContour::add_segments(const dealii::DoFHandler<2>::active_cell_iterator& flow_cell,
                                std::vector<ContourSegment>& segments) {
-    flow_cell->get_dof_values(state.flow, flow_values_);
-    component_values(spaces_->flow, phi, flow_values_, phi_);
+    flow_cell->get_dof_values(*fields_.flow, flow_values_);
+    component_values(*fields_.flow_space, fields_.level_set, flow_values_, phi_);
     lattice_.resize(lattice_shapes_.size());
     bool any_positive = false, any_negative = false;
     for (std::size_t point = 0; point < lattice_.size(); ++point) {
@@ -111,12 +123,13 @@ void CellContour::add_segments(const dealii::DoFHandler<2>::active_cell_iterator
 
     box_ = cell_box(flow_cell);
     const dealii::DoFHandler<2>::active_cell_iterator molecule_cell(&flow_cell->get_triangulation(), flow_cell->level(),
-                                                                    flow_cell->index(), &spaces_->molecules.dofs);
-    molecule_cell->get_dof_values(state.molecules, molecule_values_);
-    component_values(spaces_->flow, u_r, flow_values_, u_r_);
-    component_values(spaces_->flow, u_z, flow_values_, u_z_);
-    component_values(spaces_->flow, tension, flow_values_, lambda_);
-    component_values(spaces_->molecules, concentration, molecule_values_, c_);
+                                                                    flow_cell->index(), &fields_.molecule_space->dofs);
+    molecule_cell->get_dof_values(*fields_.molecules, molecule_values_);
+    component_values(*fields_.flow_space, fields_.velocity_r, flow_values_, u_r_);
+    component_values(*fields_.flow_space, fields_.velocity_z, flow_values_, u_z_);
+    component_values(*fields_.flow_space, fields_.tension, flow_values_, lambda_);
+    if (fields_.model != nullptr) component_values(*fields_.flow_space, fields_.curvature, flow_values_, curvature_);
+    component_values(*fields_.molecule_space, fields_.concentration, molecule_values_, c_);
     for (unsigned int k = 0; k < subdivisions_; ++k)
         for (unsigned int i = 0; i < subdivisions_; ++i) add_square(i, k, segments);
 }

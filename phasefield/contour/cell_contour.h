@@ -3,16 +3,32 @@
 #include <deal.II/fe/fe_q.h>
 
 #include "phasefield/contour/chain.h"
-#include "phasefield/monolithic/coupled_step.h"
+#include "phasefield/discretization/scalar_basis.h"
+#include "phasefield/discretization/space.h"
+#include "shared/model/bending_model.h"
 
 namespace endoflow::phasefield {
 
-/// The pieces of φ = 0 inside single cells: marching squares on a lattice of `subdivisions`² squares per cell, with the
-/// end points found as roots of the polynomial φ along the lattice lines.
+/// Where a curve and the fields on it are found: components of vectors on one mesh. `level_set` vanishes on the curve
+/// and is positive on the extracellular side.
+struct ContourFields {
+    const Space* flow_space;
+    const Vector* flow;
+    unsigned int level_set, velocity_r, velocity_z, tension;
+    double tension_factor;  // sharp tension = factor × tension …
+    const Space* molecule_space;
+    const Vector* molecules;
+    unsigned int concentration;
+    unsigned int curvature = 0;           // … − ½ β (h + C)², h this component of the flow space,
+    const BendingModel* model = nullptr;  // if there is a model
+};
+
+/// The pieces of the level set inside single cells: marching squares on a lattice of `subdivisions`² squares per cell,
+/// with the end points found as roots of the polynomial along the lattice lines.
 class CellContour {
   public:
-    CellContour(const Spaces& spaces, unsigned int subdivisions);
-    void add_segments(const dealii::DoFHandler<2>::active_cell_iterator& flow_cell, const State& state,
+    CellContour(const ContourFields& fields, unsigned int subdivisions);
+    void add_segments(const dealii::DoFHandler<2>::active_cell_iterator& flow_cell,
                       std::vector<ContourSegment>& segments);
 
   private:
@@ -20,17 +36,18 @@ class CellContour {
         double x0, y0, x1, y1;  // unit coordinates
     };
     [[nodiscard]] double phi_at(double x, double y) const;
+    [[nodiscard]] double sharp_tension(const dealii::Point<2>& unit, double c) const;
     [[nodiscard]] ContourPoint root(const Edge& edge) const;
     [[nodiscard]] ContourPoint point(double x, double y) const;
     void add_square(unsigned int i, unsigned int k, std::vector<ContourSegment>& segments) const;
 
-    const Spaces* spaces_;
+    ContourFields fields_;
     unsigned int subdivisions_;
-    dealii::FE_Q<2> phi_element_, velocity_element_, tension_element_, molecule_element_;
+    dealii::FE_Q<2> phi_element_, velocity_element_, tension_element_, molecule_element_, curvature_element_;
     std::vector<std::vector<double>> lattice_shapes_;
     CellBox box_{};
     dealii::Vector<double> flow_values_, molecule_values_;
-    std::vector<double> phi_, u_r_, u_z_, lambda_, c_, lattice_;
+    std::vector<double> phi_, u_r_, u_z_, lambda_, curvature_, c_, lattice_;
 };
 
 }  // namespace endoflow::phasefield

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "phasefield/contour/cell_contour.h"
 #include "shared/support/error.h"
 
 namespace endoflow::phasefield {
@@ -42,12 +41,12 @@ MembraneCurve to_curve(const ContourChain& chain) {
 
 }  // namespace
 
-Contour extract_contour(const Spaces& spaces, const State& state, const Parameters& p) {
-    CellContour cell_contour(spaces, subdivisions);
+Contour extract_contour(const ContourFields& fields, const Parameters& p) {
+    CellContour cell_contour(fields, subdivisions);
     std::vector<ContourSegment> segments;
-    for (const auto& cell : spaces.flow.dofs.active_cell_iterators())
-        if (cell->is_locally_owned()) cell_contour.add_segments(cell, state, segments);
-    segments = all_gather(segments, spaces.flow.dofs.get_communicator());
+    for (const auto& cell : fields.flow_space->dofs.active_cell_iterators())
+        if (cell->is_locally_owned()) cell_contour.add_segments(cell, segments);
+    segments = all_gather(segments, fields.flow_space->dofs.get_communicator());
 
     const double R = p.domain.radius, tolerance = 1e-7 * p.phase_field.cell_size;
     auto chains = join_segments(segments, tolerance);

@@ -52,28 +52,6 @@ std::vector<unsigned int> flow_degrees(const PhaseFieldParameters& p) {
     return {ku, ku, ku - 1, kt, k, k, k};
 }
 
-namespace {
-
-/// Calls visit(component, global index, support point) for every unknown on a boundary face of the known cells.
-template <class Visit>
-void for_boundary_unknowns(const Space& space, const Visit& visit) {
-    std::vector<dealii::types::global_dof_index> indices(space.element.n_dofs_per_cell());
-    for (const auto& cell : space.dofs.active_cell_iterators()) {
-        if (cell->is_artificial() || !cell->at_boundary()) continue;
-        cell->get_dof_indices(indices);
-        const auto extent = cell->vertex(3) - cell->vertex(0);
-        for (const unsigned int face : cell->face_indices()) {
-            if (!cell->face(face)->at_boundary()) continue;
-            for (unsigned int i = 0; i < indices.size(); ++i)
-                if (space.element.has_support_on_face(i, face)) {
-                    const auto unit = space.element.unit_support_point(i);
-                    visit(cell->face(face)->boundary_id(), space.element.system_to_component_index(i).first, indices[i],
-                          cell->vertex(0)[1] + unit[1] * extent[1]);
-                }
-        }
-    }
-}
-
 void switch_off(Space& space, const std::vector<unsigned int>& components) {
     std::vector<dealii::types::global_dof_index> indices(space.element.n_dofs_per_cell());
     for (const auto& cell : space.dofs.active_cell_iterators()) {
@@ -84,8 +62,6 @@ void switch_off(Space& space, const std::vector<unsigned int>& components) {
                 if (!space.constraints.is_constrained(indices[i])) space.constraints.add_line(indices[i]);
     }
 }
-
-}  // namespace
 
 void close_flow_constraints(Space& space, const Parameters& p) {
     for_boundary_unknowns(space, [&](dealii::types::boundary_id boundary, unsigned int component,
@@ -102,6 +78,26 @@ void close_flow_constraints(Space& space, const Parameters& p) {
     else if (!p.membrane.inextensible)
         switch_off(space, {tension});
     space.constraints.close();
+}
+
+void finish_interpolation(const Space& space, Vector& vector) {
+    vector.compress(dealii::VectorOperation::insert);
+    space.hanging_nodes.distribute(vector);
+    vector.update_ghost_values();
+}
+
+void scale_component(const Space& space, unsigned int component, double factor, Vector& vector) {
+    const Vector old = vector;
+    old.update_ghost_values();
+    std::vector<dealii::types::global_dof_index> indices(space.element.n_dofs_per_cell());
+    vector.zero_out_ghost_values();
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        cell->get_dof_indices(indices);
+        for (const unsigned int i : space.local[component])
+            if (space.owned.is_element(indices[i])) vector(indices[i]) = factor * old(indices[i]);
+    }
+    vector.update_ghost_values();
 }
 
 void component_values(const Space& space, unsigned int component, const dealii::Vector<double>& cell_values,

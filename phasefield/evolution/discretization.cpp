@@ -31,36 +31,14 @@ State empty_state(const Spaces& spaces) {
     return {spaces.flow.vector(), spaces.molecules.vector(), spaces.stretching.vector()};
 }
 
+ContourFields contour_fields(const Spaces& spaces, const State& state) {
+    return {&spaces.flow, &state.flow, phi, u_r, u_z, tension, 2, &spaces.molecules, &state.molecules, concentration};
+}
+
 BandWidths band_widths(const PhaseFieldParameters& p) {
     const double inner = p.band_width * p.epsilon;
     return {inner, inner + 2 * p.cell_size};
 }
-
-namespace {
-
-/// Sets a component to a function of (r, z) at its support points.
-template <class Function>
-void interpolate(const Space& space, unsigned int component, const Function& function, Vector& vector) {
-    std::vector<dealii::types::global_dof_index> indices(space.element.n_dofs_per_cell());
-    for (const auto& cell : space.dofs.active_cell_iterators()) {
-        if (!cell->is_locally_owned()) continue;
-        cell->get_dof_indices(indices);
-        const CellBox box = cell_box(cell);
-        for (const unsigned int i : space.local[component]) {
-            const auto x = space.element.unit_support_point(i);
-            if (space.owned.is_element(indices[i]))
-                vector(indices[i]) = function(box.r0 + x[0] * box.hr, box.z0 + x[1] * box.hz);
-        }
-    }
-}
-
-void finish(const Space& space, Vector& vector) {
-    vector.compress(dealii::VectorOperation::insert);
-    space.hanging_nodes.distribute(vector);
-    vector.update_ghost_values();
-}
-
-}  // namespace
 
 State initial_state(Discretization& d) {
     const Parameters& p = d.parameters;
@@ -93,9 +71,9 @@ State initial_state(Discretization& d) {
         d.spaces.molecules, concentration, [&](double r, double) { return c(r); }, state.molecules);
     interpolate(
         d.spaces.stretching, 0, [](double, double) { return 1.0; }, state.stretching);
-    finish(d.spaces.flow, state.flow);
-    finish(d.spaces.molecules, state.molecules);
-    finish(d.spaces.stretching, state.stretching);
+    finish_interpolation(d.spaces.flow, state.flow);
+    finish_interpolation(d.spaces.molecules, state.molecules);
+    finish_interpolation(d.spaces.stretching, state.stretching);
     return state;
 }
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "phasefield/contour/cell_contour.h"
 #include "phasefield/discretization/mesh.h"
 #include "phasefield/monolithic/coupled_step.h"
 
@@ -27,6 +28,9 @@ State initial_state(Discretization& discretization);
 
 /// A state of zeros with the layout of the present spaces.
 State empty_state(const Spaces& spaces);
+
+/// The membrane φ = 0 and what is known on it; ∫|∇φ| across the layer is 2, so the sharp tension is 2 λ.
+ContourFields contour_fields(const Spaces& spaces, const State& state);
 
 struct BandWidths {
     double inner, outer;  // nm

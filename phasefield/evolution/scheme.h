@@ -1,11 +1,56 @@
 #pragma once
 
-#include "phasefield/evolution/discretization.h"
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "phasefield/contour/contour.h"
+#include "phasefield/evolution/layer_integral.h"
+#include "shared/output/checkpoint.h"
 
 namespace endoflow::phasefield {
 
-/// One time step of the chosen scheme from tⁿ to tⁿ + τ. Leaves `old_state` alone; throws SolverError when a system
-/// cannot be solved, whereupon the caller may try a smaller step.
-State advance(Discretization& discretization, const State& old_state, double tau);
+/// What a step led to.
+struct StepOutcome {
+    StepDiagnostics diagnostics;
+    Contour contour;
+    std::string rejection;  // why the step must be repeated with a smaller one; empty when it may be kept
+};
+
+/// A discretisation in space and time with the state it has reached. The time loop drives it and knows nothing else.
+/// All calls are collective.
+class Scheme {
+  public:
+    Scheme() = default;
+    Scheme(const Scheme&) = delete;
+    Scheme& operator=(const Scheme&) = delete;
+    virtual ~Scheme() = default;
+
+    /// The flat membrane with its patch of molecules at rest.
+    virtual StepOutcome start() = 0;
+    /// The state that `save` wrote.
+    virtual StepOutcome load(const std::filesystem::path& directory, const Checkpoint& checkpoint) = 0;
+    virtual void save(const std::filesystem::path& directory, Checkpoint& checkpoint) = 0;
+
+    /// The step to take now; it ends at `deadline` when that is near. [µs]
+    [[nodiscard]] virtual double step(double time, double deadline) const = 0;
+    /// Tries a step and leaves the state alone. Throws SolverError when a system cannot be solved.
+    virtual StepOutcome attempt(double time, double tau) = 0;
+    /// Makes the last attempt the state.
+    virtual void keep(double time, double tau, const StepOutcome& outcome) = 0;
+    /// Forgets the last attempt. Throws SolverError("step-size-underflow", …) when smaller steps make no sense.
+    virtual void reject(double time, double tau) = 0;
+
+    /// Adapts the mesh to the membrane if it has moved far enough.
+    virtual void follow(const MembraneCurve& curve) = 0;
+    [[nodiscard]] virtual LayerIntegrals integrate() const = 0;
+    virtual void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
+                              double time) const = 0;
+    [[nodiscard]] virtual double unknowns() const = 0;
+    [[nodiscard]] virtual double cells() const = 0;
+};
+
+/// The scheme that phase_field.scheme names.
+std::unique_ptr<Scheme> make_scheme(const Parameters& parameters, MPI_Comm communicator);
 
 }  // namespace endoflow::phasefield

@@ -6,26 +6,17 @@
 #include <cmath>
 
 #include "phasefield/evolution/clearance.h"
-#include "phasefield/evolution/scheme.h"
-#include "phasefield/io/field_output.h"
+#include "phasefield/evolution/history.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
 
 namespace endoflow::phasefield {
 
-namespace {
-
-/// The mesh follows when the membrane may have moved this far since it was made; in units of ε.
-constexpr double adapt_after_motion = 0.4;
-
-}  // namespace
-
 TimeLoop::TimeLoop(const Parameters& parameters, RunOutput& output, MPI_Comm communicator)
     : parameters_(parameters),
       output_(output),
       communicator_(communicator),
-      discretization_(parameters, communicator),
-      control_(parameters),
+      scheme_(make_scheme(parameters, communicator)),
       model_(parameters.membrane) {
     if (output.restart_point())
         restart(*output.restart_point());
@@ -34,14 +25,12 @@ TimeLoop::TimeLoop(const Parameters& parameters, RunOutput& output, MPI_Comm com
 }
 
 void TimeLoop::start_fresh() {
-    state_ = initial_state(discretization_);
-    contour_ = extract_contour(discretization_.spaces, state_, parameters_);
-    const auto diagnostics = diagnose_step(discretization_.spaces, state_.flow, state_, parameters_);
-    last_energy_ = diagnostics.bending_energy;
-    record(0, diagnostics);
+    const StepOutcome outcome = scheme_->start();
+    contour_ = outcome.contour;
+    last_energy_ = outcome.diagnostics.bending_energy;
+    record(0, outcome.diagnostics);
     write_shape();
-    if (parameters_.output.field_interval > 0)
-        write_fields(output_.directory(), field_times_, time_, discretization_.spaces, state_);
+    if (parameters_.output.field_interval > 0) write_fields();
 }
 
 ExitReason TimeLoop::run() {
@@ -67,67 +56,47 @@ std::optional<ExitReason> TimeLoop::reason_to_stop() {
 
 void TimeLoop::step() {
     while (true) {
-        const double tau = control_.step(time_, next_deadline());
-        if (auto trial = attempt(tau)) {
-            keep(std::move(*trial), tau);
+        const double tau = scheme_->step(time_, next_deadline());
+        if (const auto outcome = attempt(tau)) {
+            keep(*outcome, tau);
             return;
         }
         output_.count_rejected_step();
-        discretization_.coupled.forget_factors();
-        control_.reject(time_);
+        scheme_->reject(time_, tau);
     }
 }
 
-std::optional<TimeLoop::Trial> TimeLoop::attempt(double tau) {
-    const Spaces& spaces = discretization_.spaces;
+std::optional<StepOutcome> TimeLoop::attempt(double tau) {
+    const PhaseTimer timer(output_, "time step");
     try {
-        State state = [&] {
-            const PhaseTimer timer(output_, "time step");
-            return advance(discretization_, state_, tau);
-        }();
-        const PhaseTimer timer(output_, "observables");
-        const auto diagnostics = diagnose_step(spaces, state_.flow, state, parameters_);
-        if (control_.too_far(diagnostics.motion_max) || !std::isfinite(diagnostics.bending_energy)) {
-            output_.log_info("step of " + std::to_string(1e3 * tau) + " ns rejected: motion " +
-                             std::to_string(diagnostics.motion_max) + " nm");
-            return {};
-        }
-        Contour contour = extract_contour(spaces, state, parameters_);
-        return Trial{std::move(state), diagnostics, std::move(contour)};
+        StepOutcome outcome = scheme_->attempt(time_, tau);
+        if (outcome.rejection.empty()) return outcome;
+        output_.log_info("step of " + std::to_string(1e3 * tau) + " ns rejected: " + outcome.rejection);
     } catch (const SolverError& error) {
-        output_.log_info(std::string("step rejected: ") + error.what());
-        return {};
+        output_.log_info("step of " + std::to_string(1e3 * tau) + " ns rejected: " + error.what());
     }
+    return {};
 }
 
-void TimeLoop::keep(Trial trial, double tau) {
-    state_ = std::move(trial.state);
-    contour_ = std::move(trial.contour);
+void TimeLoop::keep(const StepOutcome& outcome, double tau) {
+    scheme_->keep(time_, tau, outcome);
+    contour_ = outcome.contour;
     time_ += tau;
-    control_.accept(tau, trial.diagnostics.motion_max);
-    record(tau, trial.diagnostics);
+    record(tau, outcome.diagnostics);
     watch_neck(tau);
-    moved_ += trial.diagnostics.motion_max;
-    adapt_when_moved();
-}
-
-void TimeLoop::adapt_when_moved() {
-    if (moved_ < adapt_after_motion * parameters_.phase_field.epsilon) return;
     const PhaseTimer timer(output_, "mesh adaptation");
-    adapt(discretization_, state_, positions(contour_.curve));
-    moved_ = 0;
+    scheme_->follow(contour_.curve);
 }
 
 void TimeLoop::record(double tau, const StepDiagnostics& diagnostics) {
-    const auto integrals = integrate_layer(discretization_.spaces, state_, parameters_);
+    const PhaseTimer timer(output_, "observables");
     observables_ = measure(contour_.curve, model_);
     const double dissipation =
         diagnostics.viscous_dissipation + diagnostics.mobility_dissipation + diagnostics.extension_dissipation;
     const double residual = tau > 0 ? (diagnostics.bending_energy - last_energy_) / tau + dissipation : 0;
     last_energy_ = diagnostics.bending_energy;
-    output_.record_step(make_history_row({time_, tau, diagnostics, integrals, observables_, residual,
-                                          static_cast<double>(discretization_.spaces.flow.dofs.n_dofs()),
-                                          static_cast<double>(discretization_.mesh->n_global_active_cells())}));
+    output_.record_step(make_history_row({time_, tau, diagnostics, scheme_->integrate(), observables_, residual,
+                                          scheme_->unknowns(), scheme_->cells()}));
 }
 
 void TimeLoop::watch_neck(double tau) {
@@ -163,10 +132,12 @@ void TimeLoop::write_due_output() {
     const bool end = reached(parameters_.time.end);
     if (end || reached(shapes_written_ * parameters_.output.shape_interval)) write_shape();
     const double interval = parameters_.output.field_interval;
-    if (interval > 0 && (end || reached(static_cast<double>(field_times_.size()) * interval))) {
-        const PhaseTimer timer(output_, "field output");
-        write_fields(output_.directory(), field_times_, time_, discretization_.spaces, state_);
-    }
+    if (interval > 0 && (end || reached(static_cast<double>(field_times_.size()) * interval))) write_fields();
+}
+
+void TimeLoop::write_fields() {
+    const PhaseTimer timer(output_, "field output");
+    scheme_->write_fields(output_.directory(), field_times_, time_);
 }
 
 bool TimeLoop::anywhere(bool here) const {

@@ -1,7 +1,6 @@
 #include "phasefield/io/field_output.h"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/numerics/data_out.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -33,14 +32,19 @@ void write_index(const std::filesystem::path& file, const std::vector<double>& t
 
 }  // namespace
 
-void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times, double time,
-                  const Spaces& spaces, const State& state) {
-    using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
-    const MPI_Comm communicator = spaces.flow.dofs.get_communicator();
+void write_field_file(const std::filesystem::path& run_directory, std::vector<double>& times, double time,
+                      MPI_Comm communicator, const dealii::DataOut<2>& data) {
     const bool first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
     if (first) std::filesystem::create_directories(run_directory / "fields");
     MPI_Barrier(communicator);
+    data.write_vtu_in_parallel((run_directory / file_name(times.size())).string(), communicator);
+    times.push_back(time);
+    if (first) write_index(run_directory / "fields.pvd", times);
+}
 
+void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times, double time,
+                  const Spaces& spaces, const State& state) {
+    using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
     std::vector<Interpretation> meaning(n_flow_components, dealii::DataComponentInterpretation::component_is_scalar);
     meaning[u_r] = meaning[u_z] = dealii::DataComponentInterpretation::component_is_part_of_vector;
     dealii::DataOut<2> data;
@@ -51,9 +55,7 @@ void write_fields(const std::filesystem::path& run_directory, std::vector<double
     data.add_data_vector(spaces.molecules.dofs, state.molecules, std::vector<std::string>{"c", "chemical_potential"});
     data.add_data_vector(spaces.stretching.dofs, state.stretching, "stretching");
     data.build_patches(std::max(spaces.flow.degrees[phi], 1u));
-    data.write_vtu_in_parallel((run_directory / file_name(times.size())).string(), communicator);
-    times.push_back(time);
-    if (first) write_index(run_directory / "fields.pvd", times);
+    write_field_file(run_directory, times, time, spaces.flow.dofs.get_communicator(), data);
 }
 
 }  // namespace endoflow::phasefield

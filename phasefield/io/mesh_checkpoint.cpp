@@ -20,12 +20,22 @@ Vector read(const Space& space) {
 
 }  // namespace
 
-void save_mesh_and_state(const std::filesystem::path& directory, Discretization& d, const State& state) {
-    if (dealii::Utilities::MPI::this_mpi_process(d.communicator) == 0) {
+void make_empty_directory(const std::filesystem::path& directory, MPI_Comm communicator) {
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0) {
         std::filesystem::remove_all(directory);
         std::filesystem::create_directories(directory);
     }
-    MPI_Barrier(d.communicator);
+    MPI_Barrier(communicator);
+}
+
+void load_mesh(const std::filesystem::path& directory, Mesh& mesh) {
+    if (!std::filesystem::exists(directory / "mesh.info"))
+        throw IoError("checkpoint " + directory.string() + " holds no mesh; start the run afresh");
+    mesh.load((directory / "mesh").string());
+}
+
+void save_mesh_and_state(const std::filesystem::path& directory, Discretization& d, const State& state) {
+    make_empty_directory(directory, d.communicator);
     Transfer flow(d.spaces.flow.dofs), molecules(d.spaces.molecules.dofs), stretching(d.spaces.stretching.dofs);
     flow.prepare_for_serialization(state.flow);
     molecules.prepare_for_serialization(state.molecules);
@@ -35,9 +45,7 @@ void save_mesh_and_state(const std::filesystem::path& directory, Discretization&
 }
 
 State load_mesh_and_state(const std::filesystem::path& directory, Discretization& d) {
-    if (!std::filesystem::exists(directory / "mesh.info"))
-        throw IoError("checkpoint " + directory.string() + " holds no mesh; start the run afresh");
-    d.mesh->load((directory / "mesh").string());
+    load_mesh(directory, *d.mesh);
     d.renew();
     State state;
     state.flow = read(d.spaces.flow);

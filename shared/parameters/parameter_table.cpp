@@ -32,7 +32,7 @@ struct EnumNames<Transport> {
 };
 template <>
 struct EnumNames<PhaseFieldScheme> {
-    static constexpr std::array names{"production", "paper"};
+    static constexpr std::array names{"paper", "production"};
 };
 template <>
 struct EnumNames<ViscosityMean> {
@@ -173,7 +173,9 @@ std::vector<ParameterRow> phase_field_rows() {
     using S = PhaseFieldParameters;
     return {
         row("phase_field", "scheme", &P::phase_field, &S::scheme, "", any(), "",
-            "production = everything implicit, BDF2 with error control; paper = the first-order splitting of Sec. 3"),
+            "paper = the first-order splitting of Sec. 3; production = all fields implicit, BDF2 with error control "
+            "(early motion only, "
+            "see docs/phase-field.md)"),
         row("phase_field", "epsilon", &P::phase_field, &S::epsilon, "nm", positive(1e3), "ε", "interface thickness"),
         row("phase_field", "mobility", &P::phase_field, &S::mobility, "nm^2/(pN µs)", at_least(0, 1e6), "γ",
             "mobility of the phase field in (35); Table 1's 6.4 nm^3/s is 6.4e-6 nm^2/(pN µs)"),
@@ -240,8 +242,7 @@ std::vector<ParameterRow> boundary_integral_rows() {
         row("boundary_integral", "mesh_smoothing", &P::boundary_integral, &S::mesh_smoothing, "", positive(1), "",
             "part of the mesh over which the element density is filtered, so that neighbours are similar"),
         row("boundary_integral", "mesh_relaxation_time", &P::boundary_integral, &S::mesh_relaxation_time, "µs",
-            positive(1e3), "",
-            "time in which elements move to where they are wanted"),
+            positive(1e3), "", "time in which elements move to where they are wanted"),
         row("boundary_integral", "neck_closed_radius", &P::boundary_integral, &S::neck_closed_radius, "nm",
             at_least(0, 10), "", "the run ends with neck_closed when the neck radius falls below this"),
         row("boundary_integral", "field_spacing", &P::boundary_integral, &S::field_spacing, "nm", {0.1, 1e3}, "",

@@ -12,7 +12,7 @@ enum class Dynamics { flow, geometric };
 enum class CurvatureConvention { as_printed, consistent };
 enum class ConstitutiveLaw { linear, coarse_grained, lumped };
 enum class Transport { cahn_hilliard, fickian, advection };
-enum class PhaseFieldScheme { production, paper };
+enum class PhaseFieldScheme { paper, production };
 enum class ViscosityMean { arithmetic, harmonic };
 
 struct CaseParameters {
@@ -59,7 +59,7 @@ struct MoleculeParameters {
 };
 
 struct PhaseFieldParameters {
-    PhaseFieldScheme scheme = PhaseFieldScheme::production;
+    PhaseFieldScheme scheme = PhaseFieldScheme::paper;
     double epsilon = 1.2;
     double mobility = 0.0064;
     double tension_extension = 0.390625;
@@ -80,10 +80,10 @@ struct PhaseFieldParameters {
     double max_step = 2e-3;
     double max_motion = 0.3;
     double profile_relaxation = 2e5;
-    double tension_alignment = 1e4;
+    double tension_alignment = 30;
     double tension_leak = 1e-2;
-    double strain_relaxation = 20;
-    double stretching_alignment = 1e6;
+    double strain_relaxation = 100;
+    double stretching_alignment = 2e5;
 };
 
 struct BoundaryIntegralParameters {

@@ -39,7 +39,7 @@ Contour contour_of_hill(double cell_size) {
         }
     }
     d.spaces.flow.hanging_nodes.distribute(state.flow);
-    return extract_contour(d.spaces, state, p);
+    return extract_contour(contour_fields(d.spaces, state), p);
 }
 
 double largest_error(const MembraneCurve& curve) {

@@ -6,7 +6,7 @@
 
 #include "phasefield/contour/contour.h"
 #include "phasefield/evolution/layer_integral.h"
-#include "phasefield/evolution/scheme.h"
+#include "phasefield/evolution/paper_step.h"
 #include "shared/geometry/observables.h"
 
 using namespace endoflow;
@@ -36,11 +36,12 @@ Reference first_reference() {
 
 TEST_CASE("the standard case starts like the sharp model", "[early]") {
     const Reference reference = first_reference();
-    const Parameters p;
+    Parameters p;
+    p.phase_field.cell_size = 1.25;
     Discretization d(p, MPI_COMM_SELF);
     State state = initial_state(d);
     const BendingModel model(p.membrane);
-    const auto observe = [&] { return measure(extract_contour(d.spaces, state, p).curve, model); };
+    const auto observe = [&] { return measure(extract_contour(contour_fields(d.spaces, state), p).curve, model); };
 
     // 5e-5 µs: the sign and size of the volume gain tell whether the elements pin the interface (quadratic ones give
     // −42 nm³).

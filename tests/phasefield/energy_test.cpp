@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "phasefield/evolution/layer_integral.h"
-#include "phasefield/evolution/scheme.h"
+#include "phasefield/evolution/paper_step.h"
 #include "small_case.h"
 
 using namespace endoflow;

@@ -7,7 +7,7 @@
 
 #include "phasefield/contour/contour.h"
 #include "phasefield/evolution/layer_integral.h"
-#include "phasefield/evolution/scheme.h"
+#include "phasefield/evolution/paper_step.h"
 #include "phasefield/io/mesh_checkpoint.h"
 #include "shared/geometry/observables.h"
 #include "small_case.h"
@@ -23,8 +23,8 @@ struct Outcome {
 
 Outcome outcome(Discretization& d, const State& state) {
     const auto diagnostics = diagnose_step(d.spaces, state.flow, state, d.parameters);
-    const auto observables =
-        measure(extract_contour(d.spaces, state, d.parameters).curve, BendingModel(d.parameters.membrane));
+    const auto observables = measure(extract_contour(contour_fields(d.spaces, state), d.parameters).curve,
+                                     BendingModel(d.parameters.membrane));
     return {diagnostics.bending_energy, observables.extracellular_volume, observables.membrane_area,
             integrate_layer(d.spaces, state, d.parameters).molecules, diagnostics.area_strain_max};
 }
@@ -36,7 +36,7 @@ Outcome short_run(MPI_Comm communicator) {
     State state = initial_state(d);
     for (int step = 0; step < 4; ++step) {
         state = advance(d, state, 2e-4);
-        auto curve = positions(extract_contour(d.spaces, state, p).curve);
+        auto curve = positions(extract_contour(contour_fields(d.spaces, state), p).curve);
         for (auto& point : curve) point.z += 2.5 * (step == 1);
         adapt(d, state, curve);
     }

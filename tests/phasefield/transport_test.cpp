@@ -5,7 +5,7 @@
 
 #include "phasefield/contour/contour.h"
 #include "phasefield/evolution/layer_integral.h"
-#include "phasefield/evolution/scheme.h"
+#include "phasefield/evolution/paper_step.h"
 #include "shared/geometry/observables.h"
 #include "small_case.h"
 
@@ -64,7 +64,8 @@ TEST_CASE("the initial layer has the membrane's area and the patch's molecules",
     const State state = initial_state(d);
     const auto layer = integrate_layer(d.spaces, state, p);
     CHECK(layer.area == Approx(M_PI * 1600).epsilon(1e-4));  // |φ| < 1 − 2e-5 at the bottom and the top
-    const auto observables = measure(extract_contour(d.spaces, state, p).curve, BendingModel(p.membrane));
+    const auto observables =
+        measure(extract_contour(contour_fields(d.spaces, state), p).curve, BendingModel(p.membrane));
     CHECK(layer.molecules == Approx(observables.molecule_mass).epsilon(1e-4));
 }
 
@@ -91,7 +92,7 @@ TEST_CASE("adapting the mesh leaves the layer as it is", "[transport]") {
     State state = initial_state(d);
     for (int step = 0; step < 2; ++step) state = advance(d, state, 1e-4);
     const auto before = integrate_layer(d.spaces, state, p);
-    const auto contour = extract_contour(d.spaces, state, p);
+    const auto contour = extract_contour(contour_fields(d.spaces, state), p);
     const auto cells = d.mesh->n_global_active_cells();
     auto shifted = positions(contour.curve);
     for (auto& point : shifted) point.z += 3;  // more than a cell, less than the margin beyond the layer
@@ -100,7 +101,7 @@ TEST_CASE("adapting the mesh leaves the layer as it is", "[transport]") {
     const auto after = integrate_layer(d.spaces, state, p);
     CHECK(after.molecules == Approx(before.molecules).epsilon(1e-13));
     CHECK(after.stretching == Approx(before.stretching).epsilon(1e-13));
-    const auto again = extract_contour(d.spaces, state, p);
+    const auto again = extract_contour(contour_fields(d.spaces, state), p);
     REQUIRE(again.curve.size() == contour.curve.size());
     for (std::size_t i = 0; i < again.curve.size(); ++i)
         REQUIRE(again.curve.z[i] == Approx(contour.curve.z[i]).margin(1e-9));

@@ -1,0 +1,30 @@
+#include "phasefield/evolution/scheme.h"
+
+#include <algorithm>
+
+#include "phasefield/evolution/paper_scheme.h"
+#include "phasefield/production/production_scheme.h"
+
+namespace endoflow::phasefield {
+
+namespace {
+
+/// Cells per layer that resolve the scheme's fields. Scheme `paper` has to resolve fourth derivatives of the tanh
+/// profile; the production scheme the distance, which is smooth, and the edge of the patch of molecules.
+double chosen_cell_size(const Parameters& p) {
+    constexpr double paper_ratio = 1.25 / 1.2, production_ratio = 4.0 / 3;
+    if (p.phase_field.scheme == PhaseFieldScheme::paper) return paper_ratio * p.phase_field.epsilon;
+    return production_ratio * std::min(p.phase_field.epsilon, p.molecules.interface_width);
+}
+
+}  // namespace
+
+std::unique_ptr<Scheme> make_scheme(const Parameters& parameters, MPI_Comm communicator) {
+    Parameters resolved = parameters;
+    if (resolved.phase_field.cell_size == 0) resolved.phase_field.cell_size = chosen_cell_size(parameters);
+    if (parameters.phase_field.scheme == PhaseFieldScheme::paper)
+        return std::make_unique<PaperScheme>(resolved, communicator);
+    return std::make_unique<production::ProductionScheme>(resolved, communicator);
+}
+
+}  // namespace endoflow::phasefield

@@ -1,0 +1,163 @@
+#include "phasefield/production/assembly.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace endoflow::phasefield::production {
+
+namespace {
+
+constexpr std::size_t n_features = 3 * n_fields;
+constexpr Op operations[3] = {Op::value, Op::dr, Op::dz};
+using FeatureDual = Dual<n_features>;
+
+template <class Number>
+const Number& feature(const AtPoint<Number>& at, unsigned int operation) {
+    return operation == 0 ? at.value : operation == 1 ? at.r : at.z;
+}
+
+Fields<FeatureDual> seeded(const std::array<std::array<double, 3>, n_fields>& values) {
+    Fields<FeatureDual> x;
+    for (unsigned int f = 0; f < n_fields; ++f) {
+        FeatureDual* parts[3] = {&x[f].value, &x[f].r, &x[f].z};
+        for (unsigned int o = 0; o < 3; ++o) {
+            parts[o]->value = values[f][o];
+            parts[o]->partial[3 * f + o] = 1;
+        }
+    }
+    return x;
+}
+
+/// Σ_j a_j y(t_j) and the predicted normal at the quadrature points of one cell.
+class HistoryFields {
+  public:
+    HistoryFields(const Space& space, const dealii::Quadrature<2>& quadrature, const StepNumbers& step,
+                  const StepHistory& history)
+        : space_(&space), step_(&step), history_(&history), values_(space.element.n_dofs_per_cell()) {
+        for (const unsigned int degree : space.degrees)
+            if (!bases_.contains(degree)) bases_.emplace(degree, ScalarBasis(degree, quadrature));
+    }
+
+    void evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell, const CellBox& box,
+                       std::vector<PointHistory>& points) {
+        std::fill(points.begin(), points.end(), PointHistory{});
+        for (std::size_t j = 0; j < history_->weights.size(); ++j) {
+            cell->get_dof_values((*history_->solutions)[j], values_);
+            add_past(box, history_->weights[j], points);
+        }
+        cell->get_dof_values(*history_->predictor, values_);
+        field(distance, box, psi_);
+        for (std::size_t q = 0; q < points.size(); ++q) {
+            const double length = std::hypot(psi_.r[q], psi_.z[q], gradient_floor);
+            points[q].normal_r = psi_.r[q] / length;
+            points[q].normal_z = psi_.z[q] / length;
+        }
+    }
+
+  private:
+    void field(unsigned int component, const CellBox& box, ScalarField& out) {
+        component_values(*space_, component, values_, coefficients_);
+        evaluate(bases_.at(space_->degrees[component]), box, coefficients_, Derivatives::first, out);
+    }
+
+    void add_past(const CellBox& box, double weight, std::vector<PointHistory>& points) {
+        field(distance, box, psi_);
+        field(molecule_density, box, c_);
+        field(membrane_stretch, box, s_);
+        field(velocity_r, box, u_r_);
+        field(velocity_z, box, u_z_);
+        for (std::size_t q = 0; q < points.size(); ++q) {
+            const auto layer = layer_profile(psi_.value[q], step_->numerics.epsilon);
+            const double surface = layer.delta + surface_floor;
+            points[q].indicator += weight * layer_indicator(layer.phi);
+            points[q].distance += weight * psi_.value[q];
+            points[q].molecules += weight * surface * c_.value[q];
+            points[q].stretching += weight * surface * s_.value[q];
+            points[q].velocity_r += weight * u_r_.value[q];
+            points[q].velocity_z += weight * u_z_.value[q];
+        }
+    }
+
+    const Space* space_;
+    const StepNumbers* step_;
+    const StepHistory* history_;
+    std::map<unsigned int, ScalarBasis> bases_;
+    dealii::Vector<double> values_;
+    std::vector<double> coefficients_;
+    ScalarField psi_, c_, s_, u_r_, u_z_;
+};
+
+}  // namespace
+
+EquationPattern::EquationPattern(const Parameters& p, const BendingModel& model) : couplings(n_fields, n_fields) {
+    // Values without special meaning: everything that can depend on something does.
+    std::array<std::array<double, 3>, n_fields> values;
+    for (unsigned int f = 0; f < n_fields; ++f) values[f] = {0.31 + 0.05 * f, 0.27 + 0.03 * f, 0.41 - 0.02 * f};
+    PointHistory past;
+    past.normal_r = 0.6;
+    past.normal_z = 0.8;
+    const auto rows = point_equations(seeded(values), 3.0, past, {1.0, p.phase_field, p.fluid, p.molecules}, model);
+    couplings.fill(dealii::DoFTools::none);
+    for (unsigned int f = 0; f < n_fields; ++f) {
+        couplings(f, f) = dealii::DoFTools::always;
+        for (unsigned int o = 0; o < 3; ++o)
+            for (unsigned int column = 0; column < n_features; ++column)
+                if (feature(rows[f], o).partial[column] != 0) {
+                    entries.push_back({3 * f + o, column});
+                    couplings(f, column / 3) = dealii::DoFTools::always;
+                }
+    }
+}
+
+unsigned int gauss_points(const PhaseFieldParameters& p) {
+    return static_cast<unsigned int>(std::max({p.degree, p.velocity_degree, p.surface_degree})) + 2;
+}
+
+void assemble(const Space& space, const EquationPattern& pattern, const BendingModel& model, const StepNumbers& step,
+              const StepHistory& history, const Vector& iterate, LinearSystem& system) {
+    const dealii::QGauss<2> quadrature(gauss_points(step.numerics));
+    LocalSystem local(space, quadrature);
+    HistoryFields past(space, quadrature, step, history);
+    const unsigned int n = space.element.n_dofs_per_cell();
+    dealii::FullMatrix<double> cell_matrix(n, n);
+    dealii::Vector<double> cell_rhs(n), cell_values(n);
+    std::vector<dealii::types::global_dof_index> indices(n);
+    std::vector<PointHistory> points(quadrature.size());
+    std::vector<Coefficients> residual(n_features, Coefficients(quadrature.size())),
+        jacobian(pattern.entries.size(), Coefficients(quadrature.size()));
+
+    system.start();
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        const CellBox box = cell_box(cell);
+        cell->get_dof_indices(indices);
+        past.evaluate_cell(cell, box, points);
+        cell->get_dof_values(iterate, cell_values);
+        local.start(box, cell_values);
+        for (unsigned int q = 0; q < quadrature.size(); ++q) {
+            const double r = box.r0 + box.hr * quadrature.point(q)[0];
+            const double measure = quadrature.weight(q) * box.hr * box.hz * r;
+            std::array<std::array<double, 3>, n_fields> values;
+            for (unsigned int f = 0; f < n_fields; ++f)
+                values[f] = {local.field(f).value[q], local.field(f).r[q], local.field(f).z[q]};
+            const auto rows = point_equations(seeded(values), r, points[q], step, model);
+            for (unsigned int k = 0; k < n_features; ++k) residual[k][q] = measure * feature(rows[k / 3], k % 3).value;
+            for (std::size_t k = 0; k < pattern.entries.size(); ++k) {
+                const auto [row, column] = pattern.entries[k];
+                jacobian[k][q] = measure * feature(rows[row / 3], row % 3).partial[column];
+            }
+        }
+        for (unsigned int k = 0; k < n_features; ++k) local.residual(k / 3, operations[k % 3], residual[k]);
+        for (std::size_t k = 0; k < pattern.entries.size(); ++k) {
+            const auto [row, column] = pattern.entries[k];
+            local.jacobian(row / 3, operations[row % 3], column / 3, operations[column % 3], jacobian[k]);
+        }
+        local.write(cell_matrix, cell_rhs);
+        space.constraints.distribute_local_to_global(cell_matrix, cell_rhs, indices, system.matrix,
+                                                     system.right_hand_side);
+    }
+}
+
+}  // namespace endoflow::phasefield::production

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "phasefield/discretization/local_system.h"
+#include "phasefield/production/point_equations.h"
+#include "phasefield/solver/linear_system.h"
+
+namespace endoflow::phasefield::production {
+
+/// The past of a step: solutions newest first with their BDF weights, and the predictor.
+struct StepHistory {
+    const std::vector<Vector>* solutions;
+    std::vector<double> weights;  // [1/µs]
+    const Vector* predictor;
+};
+
+/// Which rows contain which fields, found by differentiating the equations once.
+class EquationPattern {
+  public:
+    EquationPattern(const Parameters& parameters, const BendingModel& model);
+    struct Entry {
+        unsigned int row, column;  // 3 × field + {value, ∂r, ∂z}
+    };
+    std::vector<Entry> entries;
+    Couplings couplings;
+};
+
+/// Jacobian and −residual of the coupled equations at `iterate` into `system`.
+void assemble(const Space& space, const EquationPattern& pattern, const BendingModel& model, const StepNumbers& step,
+              const StepHistory& history, const Vector& iterate, LinearSystem& system);
+
+/// Gauss points per direction.
+unsigned int gauss_points(const PhaseFieldParameters& parameters);
+
+}  // namespace endoflow::phasefield::production

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace endoflow::phasefield::production {
+
+/// Backward differentiation on uneven steps. Past times come newest first.
+
+/// dy/dt at `time` ≈ rate y(time) + Σ_j past[j] y(times[j]), exact for polynomials of degree `order`. [1/µs]
+struct BdfCoefficients {
+    double rate;
+    std::vector<double> past;
+};
+
+inline BdfCoefficients bdf_coefficients(double time, const std::vector<double>& times, std::size_t order) {
+    BdfCoefficients out{0, std::vector<double>(order, 0.0)};
+    for (std::size_t j = 0; j < order; ++j) {
+        out.rate += 1 / (time - times[j]);
+        double weight = 1 / (times[j] - time);
+        for (std::size_t m = 0; m < order; ++m)
+            if (m != j) weight *= (time - times[m]) / (times[j] - times[m]);
+        out.past[j] = weight;
+    }
+    return out;
+}
+
+/// Weights of the values at times[0 … count) in the polynomial through them, at `time`.
+inline std::vector<double> extrapolation_weights(double time, const std::vector<double>& times, std::size_t count) {
+    std::vector<double> weights(count, 1.0);
+    for (std::size_t j = 0; j < count; ++j)
+        for (std::size_t m = 0; m < count; ++m)
+            if (m != j) weights[j] *= (time - times[m]) / (times[j] - times[m]);
+    return weights;
+}
+
+/// Error of the BDF solution as part of its difference to the predictor through order + 1 past values:
+/// (1/a₀) / (1/a₀ + t − t_{order}), a₀ the rate; 2/11 for equal steps and order two.
+inline double error_fraction(double time, const std::vector<double>& times, std::size_t order) {
+    const double lag = 1 / bdf_coefficients(time, times, order).rate;
+    return lag / (lag + time - times[order]);
+}
+
+}  // namespace endoflow::phasefield::production

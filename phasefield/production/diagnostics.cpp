@@ -1,0 +1,113 @@
+#include "phasefield/production/diagnostics.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "phasefield/production/assembly.h"
+
+namespace endoflow::phasefield::production {
+
+namespace {
+
+constexpr double layer_edge = 0.9;  // |φ| below this is the layer
+constexpr double two_pi = 2 * dealii::numbers::PI;
+
+/// One component of a vector at the quadrature points, cell by cell.
+class ComponentField {
+  public:
+    ComponentField(const Space& space, unsigned int component, const dealii::Quadrature<2>& quadrature)
+        : space_(&space),
+          component_(component),
+          basis_(space.degrees[component], quadrature),
+          values_(space.element.n_dofs_per_cell()) {}
+    const ScalarField& on(const dealii::DoFHandler<2>::active_cell_iterator& cell, const CellBox& box,
+                          const Vector& vector) {
+        cell->get_dof_values(vector, values_);
+        component_values(*space_, component_, values_, coefficients_);
+        evaluate(basis_, box, coefficients_, Derivatives::first, field_);
+        return field_;
+    }
+
+  private:
+    const Space* space_;
+    unsigned int component_;
+    ScalarBasis basis_;
+    dealii::Vector<double> values_;
+    std::vector<double> coefficients_;
+    ScalarField field_;
+};
+
+}  // namespace
+
+SolutionMeasures measure_solution(const Space& space, const BendingModel& model, const StepNumbers& step,
+                                  const Vector& before, const Vector& predicted, const Vector& solution) {
+    const auto& numerics = step.numerics;
+    const dealii::QGauss<2> quadrature(gauss_points(numerics));
+    LocalSystem local(space, quadrature);
+    ComponentField old_distance(space, distance, quadrature), predicted_distance(space, distance, quadrature);
+    dealii::Vector<double> values(space.element.n_dofs_per_cell());
+    std::vector<double> sums(7, 0.0), maxima(4, 0.0);
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        const CellBox box = cell_box(cell);
+        cell->get_dof_values(solution, values);
+        local.start(box, values);
+        const auto &old_psi = old_distance.on(cell, box, before), &guess = predicted_distance.on(cell, box, predicted);
+        const auto &ur = local.field(velocity_r), &uz = local.field(velocity_z), &psi = local.field(distance),
+                   &lambda = local.field(tension_rest), &c = local.field(molecule_density),
+                   &s = local.field(membrane_stretch), &h = local.field(curvature), &g = local.field(bending_force);
+        for (unsigned int q = 0; q < quadrature.size(); ++q) {
+            const double r = box.r0 + box.hr * quadrature.point(q)[0];
+            const double w = two_pi * quadrature.weight(q) * box.hr * box.hz * r;
+            const auto layer = layer_profile(psi.value[q], numerics.epsilon);
+            const double gradient = std::hypot(psi.r[q], psi.z[q]), surface = layer.delta + surface_floor;
+            const double length = std::hypot(gradient, gradient_floor);
+            const auto bending = stiffness_of(c.value[q], model);
+            const double K = h.value[q] + bending.curvature;
+            const double nu = layer_viscosity(layer.phi, step.fluid, numerics.viscosity_mean);
+            const double hoop = ur.value[q] / r, shear = ur.z[q] + uz.r[q];
+            const double along = (psi.r[q] * lambda.r[q] + psi.z[q] * lambda.z[q]) / length;
+            const double leak = numerics.tension_leak * std::pow(layer.phi, 4);
+            sums[0] += w * layer.delta;
+            sums[1] += w * surface * c.value[q];
+            sums[2] += w * surface * s.value[q];
+            sums[3] += w * 0.5 * layer.delta * bending.beta * K * K;
+            sums[4] += w * nu * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
+            if (step.fluid.dynamics == Dynamics::geometric)
+                sums[5] += w * step.fluid.normal_mobility * g.value[q] * g.value[q] / surface;
+            sums[6] += w * (numerics.tension_alignment * (layer.squared_well + alignment_floor) * along * along +
+                            leak * (lambda.r[q] * lambda.r[q] + lambda.z[q] * lambda.z[q]));
+            if (std::abs(layer.phi) > layer_edge) continue;
+            maxima[0] = std::max(maxima[0], std::abs(s.value[q] - 1));
+            maxima[1] = std::max(maxima[1], std::abs(gradient - 1));
+            maxima[2] = std::max(maxima[2], std::abs(psi.value[q] - old_psi.value[q]));
+            maxima[3] = std::max(maxima[3], std::abs(psi.value[q] - guess.value[q]));
+        }
+    }
+    const MPI_Comm communicator = space.dofs.get_communicator();
+    dealii::Utilities::MPI::sum(sums, communicator, sums);
+    dealii::Utilities::MPI::max(maxima, communicator, maxima);
+    return {
+        {sums[0], sums[1], sums[2]}, {sums[3], sums[4], sums[5], sums[6], maxima[0], maxima[1], maxima[2]}, maxima[3]};
+}
+
+double layer_increment(const Space& space, double epsilon, const Vector& increment, const Vector& solution) {
+    const dealii::QGauss<2> quadrature(space.degrees[distance] + 1);
+    ComponentField change(space, distance, quadrature), psi(space, distance, quadrature);
+    double largest = 0;
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        const CellBox box = cell_box(cell);
+        const auto &present = psi.on(cell, box, solution), &d = change.on(cell, box, increment);
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+            if (std::abs(equilibrium_profile(present.value[q], epsilon)) <= layer_edge)
+                largest = std::max(largest, std::abs(d.value[q]));
+    }
+    return dealii::Utilities::MPI::max(largest, space.dofs.get_communicator());
+}
+
+}  // namespace endoflow::phasefield::production

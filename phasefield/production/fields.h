@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+
+#include "phasefield/discretization/space.h"
+
+namespace endoflow::phasefield::production {
+
+/// Unknowns of the production scheme, all solved for together.
+enum Field : unsigned int {
+    velocity_r,
+    velocity_z,
+    pressure_rest,       // p without the layer's own part, see point_equations.h [pN/nm²]
+    tension_rest,        // λ + ½ β K², λ the tension of the sharp model [pN/nm]
+    distance,            // ψ [nm], φ = tanh(ψ/(√2 ε))
+    bending_force,       // g = δE/δψ [pN/nm³]
+    curvature,           // h = K − C, about Δψ [1/nm]
+    molecule_density,    // c
+    molecule_potential,  // μ
+    membrane_stretch,    // s
+};
+inline constexpr unsigned int n_fields = 10;
+
+/// One field and its derivatives at one point; also one row of a weak form: the factors of the test function and of its
+/// derivatives.
+template <class Number>
+struct AtPoint {
+    Number value{}, r{}, z{};
+};
+template <class Number>
+using Fields = std::array<AtPoint<Number>, n_fields>;
+
+/// Polynomial degrees in the order of Field.
+std::vector<unsigned int> field_degrees(const PhaseFieldParameters& parameters);
+
+/// Closes the constraints (values of the increments): u_r = 0 on the axis; on r = R u_z = 0, ψ fixed and no g in the
+/// pin band, and s = 1. λ = 0 at the rim is natural. Without flow (geometric dynamics) u, p and λ are switched off;
+/// without inextensibility λ is.
+void close_constraints(Space& space, const Parameters& parameters);
+
+}  // namespace endoflow::phasefield::production

@@ -1,0 +1,95 @@
+#include <deal.II/distributed/solution_transfer.h>
+
+#include "phasefield/io/mesh_checkpoint.h"
+#include "phasefield/production/production_scheme.h"
+
+namespace endoflow::phasefield::production {
+
+namespace {
+
+using Transfer = dealii::parallel::distributed::SolutionTransfer<2, Vector>;
+
+std::vector<const Vector*> addresses(const std::vector<Vector>& vectors) {
+    std::vector<const Vector*> out;
+    for (const auto& vector : vectors) out.push_back(&vector);
+    return out;
+}
+
+}  // namespace
+
+bool ProductionScheme::adapt_once(const std::vector<PlanePoint>& curve) {
+    const auto finest = static_cast<unsigned int>(parameters_.phase_field.far_refinements);
+    flag_band(*mesh_, curve, finest, band(), band() + 2 * parameters_.phase_field.cell_size);
+    mesh_->prepare_coarsening_and_refinement();
+    bool changes = false;
+    for (const auto& cell : mesh_->active_cell_iterators())
+        changes = changes || (cell->is_locally_owned() && (cell->refine_flag_set() || cell->coarsen_flag_set()));
+    if (dealii::Utilities::MPI::max(changes ? 1 : 0, mesh_->get_communicator()) == 0) return false;
+
+    Transfer transfer(space_.dofs);
+    transfer.prepare_for_coarsening_and_refinement(addresses(solutions_));
+    mesh_->execute_coarsening_and_refinement();
+    distribute();
+    std::vector<Vector> carried(solutions_.size(), space_.vector());
+    std::vector<Vector*> targets;
+    for (auto& vector : carried) targets.push_back(&vector);
+    transfer.interpolate(targets);
+    for (auto& vector : carried) space_.hanging_nodes.distribute(vector);
+    solutions_ = std::move(carried);
+    for (const auto& solution : solutions_) solution.update_ghost_values();
+    return true;
+}
+
+void ProductionScheme::follow(const MembraneCurve& curve) {
+    if (moved_ < follow_after_motion * parameters_.phase_field.epsilon) return;
+    moved_ = 0;
+    bool adapted = false;
+    for (int pass = 0; pass < parameters_.phase_field.far_refinements && adapt_once(positions(curve)); ++pass)
+        adapted = true;
+    if (!adapted) return;
+    system_.reinit(space_, pattern_.couplings);
+    // Cells are coarsened outside of the layer alone; what that changes in ∫δ c and ∫δ s is restored to round-off.
+    const auto present = [this] {
+        return measure_solution(space_, model_, numbers_, solutions_.front(), solutions_.front(), solutions_.front())
+            .integrals;
+    };
+    const LayerIntegrals after = present();
+    for (auto& solution : solutions_) {
+        if (after.molecules > 0)
+            scale_component(space_, molecule_density, integrals_.molecules / after.molecules, solution);
+        scale_component(space_, membrane_stretch, integrals_.stretching / after.stretching, solution);
+    }
+    integrals_ = present();
+}
+
+void ProductionScheme::save(const std::filesystem::path& directory, Checkpoint& checkpoint) {
+    checkpoint.scalars["nominal_step"] = nominal_;
+    checkpoint.scalars["moved"] = moved_;
+    checkpoint.scalars["steps_since_start"] = since_start_;
+    checkpoint.arrays["solution_times"] = times_;
+    make_empty_directory(directory, mesh_->get_communicator());
+    Transfer transfer(space_.dofs);
+    transfer.prepare_for_serialization(addresses(solutions_));
+    mesh_->save((directory / "mesh").string());
+    MPI_Barrier(mesh_->get_communicator());
+}
+
+StepOutcome ProductionScheme::load(const std::filesystem::path& directory, const Checkpoint& checkpoint) {
+    nominal_ = checkpoint.scalar("nominal_step");
+    moved_ = checkpoint.scalar("moved");
+    since_start_ = checkpoint.scalar("steps_since_start");
+    times_ = checkpoint.array("solution_times");
+    load_mesh(directory, *mesh_);
+    renew();
+    Transfer transfer(space_.dofs);
+    solutions_.assign(times_.size(), space_.vector());
+    std::vector<Vector*> targets;
+    for (auto& vector : solutions_) targets.push_back(&vector);
+    transfer.deserialize(targets);
+    for (const auto& solution : solutions_) solution.update_ghost_values();
+    const Vector& latest = solutions_.front();
+    integrals_ = measure_solution(space_, model_, numbers_, latest, latest, latest).integrals;
+    return present();
+}
+
+}  // namespace endoflow::phasefield::production

@@ -1,0 +1,253 @@
+#include "phasefield/production/production_scheme.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "phasefield/io/field_output.h"
+#include "phasefield/production/bdf.h"
+#include "shared/model/initial_condition.h"
+#include "shared/support/error.h"
+
+namespace endoflow::phasefield::production {
+
+namespace {
+
+constexpr std::size_t highest_order = 2;
+constexpr double first_steps = 3;       // before the error can be estimated
+constexpr double safety = 0.85;         // of the step
+constexpr double largest_growth = 2;    // per step
+constexpr double tolerated_excess = 2;  // of the error over its tolerance, beyond which a step is repeated
+constexpr double newton_part = 0.01;    // of the step's tolerance to which Newton's method converges
+constexpr int most_newton_iterations = 8;
+constexpr double smallest_step = 1e-5;  // of the first one
+constexpr double largest_motion = 1.5;  // of the membrane in one step, in units of ε
+
+/// Largest error of the membrane's position per step [nm].
+double position_tolerance(const Parameters& p) {
+    return p.time.tolerance * p.domain.radius;
+}
+
+}  // namespace
+
+ProductionScheme::ProductionScheme(const Parameters& parameters, MPI_Comm communicator)
+    : parameters_(parameters),
+      model_(parameters.membrane),
+      mesh_(coarse_mesh(parameters, communicator)),
+      space_(*mesh_, field_degrees(parameters.phase_field)),
+      pattern_(parameters, model_),
+      system_(communicator, "coupled"),
+      numbers_{0, parameters.phase_field, parameters.fluid, parameters.molecules},
+      nominal_(parameters.time.initial_step) {}
+
+namespace {
+
+/// φ, p and the sharp λ, which are not unknowns themselves.
+class PhysicalFields : public dealii::DataPostprocessor<2> {
+  public:
+    PhysicalFields(double epsilon, const BendingModel& model) : epsilon_(epsilon), model_(&model) {}
+    [[nodiscard]] std::vector<std::string> get_names() const override { return {"phi", "pressure", "lambda"}; }
+    [[nodiscard]] std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>
+    get_data_component_interpretation() const override {
+        return std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
+            3, dealii::DataComponentInterpretation::component_is_scalar);
+    }
+    [[nodiscard]] dealii::UpdateFlags get_needed_update_flags() const override {
+        return dealii::update_values | dealii::update_gradients;
+    }
+    void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<2>& in,
+                               std::vector<dealii::Vector<double>>& out) const override {
+        for (std::size_t q = 0; q < out.size(); ++q) {
+            const auto& value = in.solution_values[q];
+            const auto& gradient = in.solution_gradients[q];
+            const auto layer = layer_profile(value(distance), epsilon_);
+            Fields<double> x{};
+            x[curvature] = {value(curvature), gradient[curvature][0], gradient[curvature][1]};
+            x[molecule_density] = {value(molecule_density), gradient[molecule_density][0],
+                                   gradient[molecule_density][1]};
+            const auto bending = point_bending(x, layer, *model_);
+            out[q](0) = layer.phi;
+            out[q](1) = value(pressure_rest) + layer.delta * (bending.density + gradient[distance][0] * bending.b_r +
+                                                              gradient[distance][1] * bending.b_z);
+            out[q](2) = value(tension_rest) - bending.density;
+        }
+    }
+
+  private:
+    double epsilon_;
+    const BendingModel* model_;
+};
+
+}  // namespace
+
+double ProductionScheme::band() const {
+    return (parameters_.phase_field.band_width + band_reserve) * parameters_.phase_field.epsilon;
+}
+
+void ProductionScheme::distribute() {
+    space_.distribute();
+    close_constraints(space_, parameters_);
+}
+
+void ProductionScheme::renew() {
+    distribute();
+    system_.reinit(space_, pattern_.couplings);
+}
+
+Contour ProductionScheme::contour(const Vector& solution) const {
+    const ContourFields fields{&space_,      &solution, distance, velocity_r, velocity_z,
+                               tension_rest, 1,         &space_,  &solution,  molecule_density};
+    return extract_contour(fields, parameters_);
+}
+
+StepOutcome ProductionScheme::present() const {
+    const Vector& solution = solutions_.front();
+    return {
+        measure_solution(space_, model_, numbers_, solution, solution, solution).diagnostics, contour(solution), {}};
+}
+
+StepOutcome ProductionScheme::start() {
+    const double z0 = parameters_.domain.membrane_height;
+    std::vector<PlanePoint> curve;
+    for (double r = 0; r <= parameters_.domain.radius; r += 0.25 * parameters_.phase_field.cell_size)
+        curve.push_back({r, z0});
+    const auto finest = static_cast<unsigned int>(parameters_.phase_field.far_refinements);
+    for (unsigned int level = 0; level < finest; ++level) {
+        flag_band(*mesh_, curve, finest, band(), 1e300);
+        mesh_->execute_coarsening_and_refinement();
+    }
+    renew();
+
+    Vector solution = space_.vector();
+    const auto c = [&](double r) { return initial_concentration(parameters_.molecules, r); };
+    interpolate(
+        space_, distance, [&](double, double z) { return z0 - z; }, solution);
+    interpolate(
+        space_, molecule_density, [&](double r, double) { return c(r); }, solution);
+    interpolate(
+        space_, membrane_stretch, [](double, double) { return 1.0; }, solution);
+    finish_interpolation(space_, solution);
+    solutions_ = {solution};
+    solutions_.front().update_ghost_values();
+    times_ = {0};
+    integrals_ = measure_solution(space_, model_, numbers_, solution, solution, solution).integrals;
+    return present();
+}
+
+std::size_t ProductionScheme::order() const {
+    return std::min(highest_order, times_.size());
+}
+
+double ProductionScheme::step(double time, double deadline) const {
+    const double left = deadline - time;
+    if (nominal_ >= left * (1 - 1e-9)) return left;
+    return nominal_ >= 0.5 * left ? 0.5 * left : nominal_;  // no tiny last step
+}
+
+Vector ProductionScheme::predict(double time) const {
+    const auto weights = extrapolation_weights(time, times_, std::min(order() + 1, times_.size()));
+    Vector out = space_.vector();
+    for (std::size_t j = 0; j < weights.size(); ++j) out.add(weights[j], solutions_[j]);
+    out.update_ghost_values();
+    return out;
+}
+
+void ProductionScheme::solve(Vector& solution, const StepHistory& history) {
+    const double wanted = newton_part * position_tolerance(parameters_);
+    double last = 1e300;
+    std::string changes;
+    for (int iteration = 0; iteration < most_newton_iterations; ++iteration) {
+        assemble(space_, pattern_, model_, numbers_, history, solution, system_);
+        system_.forget_factors();
+        Vector increment = space_.vector();
+        system_.solve(space_, increment);
+        const double change = layer_increment(space_, parameters_.phase_field.epsilon, increment, solution);
+        solution += increment;
+        solution.update_ghost_values();
+        if (change <= wanted) return;
+        char text[24];
+        std::snprintf(text, sizeof text, " %.1e", change);
+        changes += text;
+        if (!std::isfinite(change) || change > 10 * std::max(last, wanted)) break;
+        last = change;
+    }
+    throw SolverError("newton-divergence", "Newton's method changed ψ by" + changes + " nm",
+                      "use a smaller time.tolerance or phase_field.cell_size");
+}
+
+StepOutcome ProductionScheme::attempt(double time, double tau) {
+    const double end = time + tau;
+    const auto bdf = bdf_coefficients(end, times_, order());
+    numbers_.rate = bdf.rate;
+    const Vector predicted = predict(end);
+    trial_ = predicted;
+    trial_.update_ghost_values();
+    predicted.update_ghost_values();
+    solve(trial_, {&solutions_, bdf.past, &predicted});
+
+    const auto measures = measure_solution(space_, model_, numbers_, solutions_.front(), predicted, trial_);
+    trial_integrals_ = measures.integrals;
+    const double motion = measures.diagnostics.motion_max;
+    const double farthest = largest_motion * parameters_.phase_field.epsilon;
+    const bool estimated = times_.size() > order();
+    const double error = estimated ? measures.step_difference * error_fraction(end, times_, order()) : 0;
+    const double allowed = position_tolerance(parameters_);
+    trial_factor_ = since_start_ < first_steps ? 1 : largest_growth;
+    if (estimated) trial_factor_ = std::min(trial_factor_, safety * std::cbrt(allowed / std::max(error, 1e-12)));
+    if (motion > 0) trial_factor_ = std::min(trial_factor_, safety * farthest / motion);
+    StepOutcome outcome{measures.diagnostics, {}, {}};
+    if (!std::isfinite(measures.diagnostics.bending_energy))
+        outcome.rejection = "the energy is not a number";
+    else if (motion > farthest)
+        outcome.rejection = "motion " + std::to_string(motion) + " nm";
+    else if (error > tolerated_excess * allowed)
+        outcome.rejection = "error " + std::to_string(error) + " nm";
+    else
+        outcome.contour = contour(trial_);
+    return outcome;
+}
+
+void ProductionScheme::keep(double time, double tau, const StepOutcome& outcome) {
+    solutions_.insert(solutions_.begin(), trial_);
+    times_.insert(times_.begin(), time + tau);
+    if (times_.size() > highest_order + 1) {
+        solutions_.pop_back();
+        times_.pop_back();
+    }
+    for (const auto& solution : solutions_) solution.update_ghost_values();  // copies do not have them
+    integrals_ = trial_integrals_;
+    // A step that was cut short by a deadline does not shorten the next one.
+    const double next = trial_factor_ * tau;
+    nominal_ = tau < nominal_ && trial_factor_ >= 1 ? std::max(nominal_, next) : next;
+    nominal_ = std::min(nominal_, parameters_.time.max_step);
+    moved_ += outcome.diagnostics.motion_max;
+    since_start_ += 1;
+}
+
+void ProductionScheme::reject(double time, double tau) {
+    system_.forget_factors();
+    nominal_ = std::clamp(trial_factor_, 0.2, 0.5) * tau;
+    trial_factor_ = 0;
+    if (nominal_ < smallest_step * parameters_.time.initial_step)
+        throw SolverError("step-size-underflow", "no acceptable time step at t = " + std::to_string(time) + " µs",
+                          "use a smaller phase_field.cell_size or a larger phase_field.profile_relaxation");
+}
+
+void ProductionScheme::write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
+                                    double time) const {
+    using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
+    std::vector<Interpretation> meaning(n_fields, dealii::DataComponentInterpretation::component_is_scalar);
+    meaning[velocity_r] = meaning[velocity_z] = dealii::DataComponentInterpretation::component_is_part_of_vector;
+    dealii::DataOut<2> data;
+    const PhysicalFields physical(parameters_.phase_field.epsilon, model_);
+    data.add_data_vector(
+        space_.dofs, solutions_.front(),
+        std::vector<std::string>{"velocity", "velocity", "pressure_rest", "tension_rest", "distance", "membrane_force",
+                                 "curvature", "c", "chemical_potential", "stretching"},
+        meaning);
+    data.add_data_vector(space_.dofs, solutions_.front(), physical);
+    data.build_patches(space_.degrees[distance]);
+    write_field_file(run_directory, times, time, mesh_->get_communicator(), data);
+}
+
+}  // namespace endoflow::phasefield::production

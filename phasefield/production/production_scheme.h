@@ -1,0 +1,67 @@
+#pragma once
+
+#include "phasefield/discretization/mesh.h"
+#include "phasefield/evolution/scheme.h"
+#include "phasefield/production/assembly.h"
+#include "phasefield/production/diagnostics.h"
+
+namespace endoflow::phasefield::production {
+
+/// The band of small cells is wider than band_width by this, in units of ε …
+inline constexpr double band_reserve = 1.0;
+/// … and the mesh follows when the membrane has moved this far.
+inline constexpr double follow_after_motion = 0.5;
+
+/// All fields at one time level are solved for together by Newton's method; BDF2 in time with the error of ψ
+/// controlled.
+class ProductionScheme : public Scheme {
+  public:
+    ProductionScheme(const Parameters& parameters, MPI_Comm communicator);
+
+    StepOutcome start() override;
+    StepOutcome load(const std::filesystem::path& directory, const Checkpoint& checkpoint) override;
+    void save(const std::filesystem::path& directory, Checkpoint& checkpoint) override;
+    [[nodiscard]] double step(double time, double deadline) const override;
+    StepOutcome attempt(double time, double tau) override;
+    void keep(double time, double tau, const StepOutcome& outcome) override;
+    void reject(double time, double tau) override;
+    void follow(const MembraneCurve& curve) override;
+    [[nodiscard]] LayerIntegrals integrate() const override { return integrals_; }
+    void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
+                      double time) const override;
+    [[nodiscard]] double unknowns() const override { return static_cast<double>(space_.dofs.n_dofs()); }
+    [[nodiscard]] double cells() const override { return static_cast<double>(mesh_->n_global_active_cells()); }
+
+  private:
+    void distribute();
+    void renew();
+    void refine_band(const std::vector<PlanePoint>& curve);
+    bool adapt_once(const std::vector<PlanePoint>& curve);
+    [[nodiscard]] Vector predict(double time) const;
+    void solve(Vector& solution, const StepHistory& history);
+    [[nodiscard]] std::size_t order() const;
+    [[nodiscard]] Contour contour(const Vector& solution) const;
+    [[nodiscard]] StepOutcome present() const;
+    [[nodiscard]] double band() const;
+
+    Parameters parameters_;
+    BendingModel model_;
+    std::unique_ptr<Mesh> mesh_;
+    Space space_;
+    EquationPattern pattern_;
+    LinearSystem system_;
+    StepNumbers numbers_;
+    std::vector<Vector> solutions_;  // newest first
+    std::vector<double> times_;      // of them [µs]
+    LayerIntegrals integrals_{};
+
+    Vector trial_;
+    LayerIntegrals trial_integrals_{};
+    double trial_factor_ = 1;  // by which the step may grow
+
+    double nominal_;          // the next step [µs]
+    double moved_ = 0;        // since the mesh was made [nm]
+    double since_start_ = 0;  // steps taken
+};
+
+}  // namespace endoflow::phasefield::production
