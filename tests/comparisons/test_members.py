@@ -104,7 +104,7 @@ class Slurm(StudyTest):
         return subprocess.run(
             ["bash", str(self.scratch / "a dir" / "sweep.sbatch")],
             cwd=self.scratch,
-            env={**os.environ, "SLURM_ARRAY_TASK_ID": str(number), "PATH": path},
+            env={**self.environment(), "SLURM_ARRAY_TASK_ID": str(number), "PATH": path},
             capture_output=True,
             text=True,
             timeout=300,
