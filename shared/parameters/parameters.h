@@ -69,7 +69,7 @@ struct PhaseFieldParameters {
     double advection_centering = 0.5;
     double force_centering = 1;
     ViscosityMean viscosity_mean = ViscosityMean::arithmetic;
-    double cell_size = 0;
+    double cell_size = 1.25;
     int far_refinements = 3;
     double band_width = 4.5;
     int degree = 3;

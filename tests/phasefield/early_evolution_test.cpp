@@ -36,8 +36,7 @@ Reference first_reference() {
 
 TEST_CASE("the standard case starts like the sharp model", "[early]") {
     const Reference reference = first_reference();
-    Parameters p;
-    p.phase_field.cell_size = 1.25;
+    const Parameters p;
     Discretization d(p, MPI_COMM_SELF);
     State state = initial_state(d);
     const BendingModel model(p.membrane);
