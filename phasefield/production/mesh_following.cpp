@@ -87,8 +87,6 @@ StepOutcome ProductionScheme::load(const std::filesystem::path& directory, const
     for (auto& vector : solutions_) targets.push_back(&vector);
     transfer.deserialize(targets);
     for (const auto& solution : solutions_) solution.update_ghost_values();
-    const Vector& latest = solutions_.front();
-    integrals_ = measure_solution(space_, model_, numbers_, latest, latest, latest).integrals;
     return present();
 }
 

@@ -100,10 +100,11 @@ Contour ProductionScheme::contour(const Vector& solution) const {
     return extract_contour(fields, parameters_);
 }
 
-StepOutcome ProductionScheme::present() const {
+StepOutcome ProductionScheme::present() {
     const Vector& solution = solutions_.front();
-    return {
-        measure_solution(space_, model_, numbers_, solution, solution, solution).diagnostics, contour(solution), {}};
+    const auto measures = measure_solution(space_, model_, numbers_, solution, solution, solution);
+    integrals_ = measures.integrals;
+    return {measures.diagnostics, contour(solution), {}};
 }
 
 StepOutcome ProductionScheme::start() {
@@ -130,7 +131,6 @@ StepOutcome ProductionScheme::start() {
     solutions_ = {solution};
     solutions_.front().update_ghost_values();
     times_ = {0};
-    integrals_ = measure_solution(space_, model_, numbers_, solution, solution, solution).integrals;
     return present();
 }
 
@@ -225,7 +225,6 @@ void ProductionScheme::keep(double time, double tau, const StepOutcome& outcome)
 }
 
 void ProductionScheme::reject(double time, double tau) {
-    system_.forget_factors();
     nominal_ = std::clamp(trial_factor_, 0.2, 0.5) * tau;
     trial_factor_ = 0;
     if (nominal_ < smallest_step * parameters_.time.initial_step)

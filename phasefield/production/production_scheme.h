@@ -35,13 +35,13 @@ class ProductionScheme : public Scheme {
   private:
     void distribute();
     void renew();
-    void refine_band(const std::vector<PlanePoint>& curve);
     bool adapt_once(const std::vector<PlanePoint>& curve);
     [[nodiscard]] Vector predict(double time) const;
     void solve(Vector& solution, const StepHistory& history);
     [[nodiscard]] std::size_t order() const;
     [[nodiscard]] Contour contour(const Vector& solution) const;
-    [[nodiscard]] StepOutcome present() const;
+    /// Measures the newest solution: renews integrals_ and returns the rest.
+    StepOutcome present();
     [[nodiscard]] double band() const;
 
     Parameters parameters_;
