@@ -1,8 +1,6 @@
 """Fig. 3: molecules that keep together (Cahn–Hilliard) and molecules that diffuse (Fick)."""
 
-import style
-
-from .histories import history_figure
+from .histories import history_figure, history_names
 from .item import (
     Printed,
     Result,
@@ -90,11 +88,7 @@ def result(runs, quick):
         *quick_remark(quick),
         *not_run_remarks(runs),
     ]
-    names = {
-        (name, engine): f"{title}, {style.ENGINE_NAMES[engine]}"
-        for name, title in TRANSPORTS.items()
-        for engine in engines
-    }
+    names = history_names(TRANSPORTS, engines)
     figures = {
         "fig3": ("Membranes coloured by c", snapshots(runs, TIMES, TRANSPORTS)),
         "fig3_histories": ("Neck radius and height", history_figure(runs, names)),

@@ -4,7 +4,7 @@ import numpy as np
 
 import style
 
-from .histories import history_figure
+from .histories import history_figure, history_names
 from .item import (
     NECK_CLOSED,
     QUICK_LAYER,
@@ -126,11 +126,7 @@ def result(runs, quick):
         *quick_remark(quick),
         *not_run_remarks(runs),
     ]
-    names = {
-        (name, engine): f"{title}, {style.ENGINE_NAMES[engine]}"
-        for name, title in DYNAMICS.items()
-        for engine in engines
-    }
+    names = history_names(DYNAMICS, engines)
     figures = {
         "fig4": ("At the paper's times", snapshots(runs, style.PAPER_TIMES, DYNAMICS, membrane_in_fluid)),
         "fig4_early": ("While the bud forms", snapshots(runs, EARLY_TIMES, DYNAMICS, moving_membrane)),

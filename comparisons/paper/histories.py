@@ -18,6 +18,15 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 LINES = {"boundary-integral": "-", "phase-field": (0, (4, 2))}
 
 
+def history_names(titles, engines):
+    """Names of the lines: {(run name, engine): text} from {run name: title}."""
+    return {
+        (name, engine): f"{title}, {style.ENGINE_NAMES[engine]}"
+        for name, title in titles.items()
+        for engine in engines
+    }
+
+
 def history_figure(runs, names, columns=COLUMNS):
     """Columns against time (logarithmic); names: {(run name, engine): legend text}. A run's colour is its name's."""
     order = list(dict.fromkeys(name for name, _ in names))
