@@ -27,6 +27,14 @@ if(ENDOFLOW_SANITIZE)
   target_compile_options(endoflow_sanitizers INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
                                                        -fno-omit-frame-pointer)
   target_link_options(endoflow_sanitizers INTERFACE -fsanitize=address,undefined)
+elseif(ENDOFLOW_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "libFuzzer comes with Clang: configure with -DCMAKE_CXX_COMPILER=clang++, or without "
+                        "-DENDOFLOW_FUZZ=ON")
+  endif()
+  target_compile_options(endoflow_sanitizers INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+                                                       -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(endoflow_sanitizers INTERFACE -fsanitize=address,undefined)
 endif()
 
 # endoflow_add_part(TARGET PART sources… ) makes a static library of one part; its users see PART's headers.

@@ -5,6 +5,7 @@
 #define TOML_EXCEPTIONS 1
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <fstream>
 #include <optional>
 #include <set>
@@ -21,13 +22,19 @@ namespace {
 /// Larger case files than this are refused before they are read: no sensible case comes near it.
 constexpr std::uintmax_t largest_case_file = 1 << 20;
 
+/// Each dot of a key is a table within a table, and deep trees of tables exhaust the stack when they are destroyed.
+constexpr std::ptrdiff_t most_dots = 4000;
+
 std::string location(const std::string& source_name, const toml::source_region& region) {
     return fmt::format("{}:{}:{}", source_name, region.begin.line, region.begin.column);
 }
 
-std::set<std::string> known_sections() {
-    std::set<std::string> sections;
-    for (const auto& row : parameter_table()) sections.insert(row.section);
+const std::set<std::string>& known_sections() {
+    static const std::set<std::string> sections = [] {
+        std::set<std::string> names;
+        for (const auto& row : parameter_table()) names.insert(row.section);
+        return names;
+    }();
     return sections;
 }
 
@@ -37,7 +44,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 }
 
 std::string unknown_section_message(const std::string& section) {
-    const auto sections = known_sections();
+    const auto& sections = known_sections();
     return fmt::format("unknown section [{}]{}", section, suggestion(section, {sections.begin(), sections.end()}));
 }
 
@@ -70,7 +77,7 @@ void apply_section(Parameters& parameters, const std::string& section, const tom
 }
 
 void apply_document(Parameters& parameters, const toml::table& document, const std::string& source_name) {
-    const auto sections = known_sections();
+    const auto& sections = known_sections();
     for (const auto& [section, node] : document) {
         const std::string name(section.str());
         const std::string where = location(source_name, section.source());
@@ -83,7 +90,7 @@ void apply_document(Parameters& parameters, const toml::table& document, const s
 
 /// "12" → 12, "true" → true, "consistent" → "consistent": TOML syntax, with bare words taken as strings.
 ParameterValue override_value(const std::string& text, const std::string& name, const std::string& where) {
-    if (text.find_first_of("\r\n") == std::string::npos) {
+    if (text.find_first_of("\r\n") == std::string::npos && std::count(text.begin(), text.end(), '.') <= most_dots) {
         try {
             const toml::table parsed = toml::parse("value = " + text);
             return value_of(*parsed.get("value"), name, where);
@@ -130,6 +137,9 @@ std::string read_text(const std::filesystem::path& file) {
 
 Parameters parse_case(const std::string& text, const std::string& source_name,
                       const std::vector<std::string>& overrides) {
+    if (std::count(text.begin(), text.end(), '.') > most_dots)
+        throw InputError(fmt::format("{}: more than {} dots; a case file is a short TOML text with keys in sections",
+                                     source_name, most_dots));
     Parameters parameters;
     try {
         apply_document(parameters, toml::parse(text, source_name), source_name);

@@ -8,10 +8,13 @@ namespace endoflow {
 /// Exit codes of every endoflow program.
 enum class ExitCode : int { done = 0, bad_input = 2, solver_stopped = 3, io = 4, interrupted = 130, terminated = 143 };
 
+/// The text with control characters written as \uXXXX: parts of a message come from files.
+[[nodiscard]] std::string one_line(const std::string& text);
+
 /// An error a user can act on. what() is one line: what happened, where, and what is allowed or what to change.
 class Error : public std::runtime_error {
   public:
-    Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+    Error(ExitCode code, const std::string& message) : std::runtime_error(one_line(message)), code_(code) {}
     [[nodiscard]] ExitCode code() const noexcept { return code_; }
 
   private:
