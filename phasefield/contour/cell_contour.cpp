@@ -23,7 +23,7 @@ CellContour::CellContour(const ContourFields& fields, unsigned int subdivisions)
       velocity_element_(fields.flow_space->degrees[fields.velocity_r]),
       tension_element_(fields.flow_space->degrees[fields.tension]),
       molecule_element_(fields.molecule_space->degrees[fields.concentration]),
-      curvature_element_(fields.flow_space->degrees[fields.curvature]),
+      moment_element_(fields.flow_space->degrees[fields.moment]),
       flow_values_(fields.flow_space->element.n_dofs_per_cell()),
       molecule_values_(fields.molecule_space->element.n_dofs_per_cell()) {
     for (unsigned int k = 0; k <= subdivisions; ++k)
@@ -42,10 +42,8 @@ double CellContour::phi_at(double x, double y) const {
 double CellContour::sharp_tension(const dealii::Point<2>& unit, double c) const {
     const double tension = fields_.tension_factor * value_at(tension_element_, lambda_, unit);
     if (fields_.model == nullptr) return tension;
-    const double clipped = clip_concentration(c);
-    const double K =
-        value_at(curvature_element_, curvature_, unit) + fields_.model->spontaneous_curvature(clipped).value;
-    return tension - 0.5 * fields_.model->stiffness(clipped).value * K * K;
+    return endoflow::phasefield::sharp_tension(tension, value_at(moment_element_, moment_, unit),
+                                               bending_coefficients(*fields_.model, c));
 }
 
 ContourPoint CellContour::point(double x, double y) const {
@@ -128,7 +126,7 @@ void CellContour::add_segments(const dealii::DoFHandler<2>::active_cell_iterator
     component_values(*fields_.flow_space, fields_.velocity_r, flow_values_, u_r_);
     component_values(*fields_.flow_space, fields_.velocity_z, flow_values_, u_z_);
     component_values(*fields_.flow_space, fields_.tension, flow_values_, lambda_);
-    if (fields_.model != nullptr) component_values(*fields_.flow_space, fields_.curvature, flow_values_, curvature_);
+    if (fields_.model != nullptr) component_values(*fields_.flow_space, fields_.moment, flow_values_, moment_);
     component_values(*fields_.molecule_space, fields_.concentration, molecule_values_, c_);
     for (unsigned int k = 0; k < subdivisions_; ++k)
         for (unsigned int i = 0; i < subdivisions_; ++i) add_square(i, k, segments);

@@ -15,12 +15,12 @@ struct ContourFields {
     const Space* flow_space;
     const Vector* flow;
     unsigned int level_set, velocity_r, velocity_z, tension;
-    double tension_factor;  // sharp tension = factor × tension …
+    double tension_factor;  // sharp tension = factor × tension,
     const Space* molecule_space;
     const Vector* molecules;
     unsigned int concentration;
-    unsigned int curvature = 0;           // … − ½ β (h + C)², h this component of the flow space,
-    const BendingModel* model = nullptr;  // if there is a model
+    unsigned int moment = 0;              // or, if there is a model, sharp_tension() with this component
+    const BendingModel* model = nullptr;  // of the flow space as the moment
 };
 
 /// The pieces of the level set inside single cells: marching squares on a lattice of `subdivisions`² squares per cell,
@@ -43,11 +43,11 @@ class CellContour {
 
     ContourFields fields_;
     unsigned int subdivisions_;
-    dealii::FE_Q<2> phi_element_, velocity_element_, tension_element_, molecule_element_, curvature_element_;
+    dealii::FE_Q<2> phi_element_, velocity_element_, tension_element_, molecule_element_, moment_element_;
     std::vector<std::vector<double>> lattice_shapes_;
     CellBox box_{};
     dealii::Vector<double> flow_values_, molecule_values_;
-    std::vector<double> phi_, u_r_, u_z_, lambda_, curvature_, c_, lattice_;
+    std::vector<double> phi_, u_r_, u_z_, lambda_, moment_, c_, lattice_;
 };
 
 }  // namespace endoflow::phasefield

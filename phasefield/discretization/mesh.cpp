@@ -30,22 +30,28 @@ double distance_to_cell(const CellBox& box, const std::vector<PlanePoint>& curve
     return std::sqrt(nearest);
 }
 
-bool flag_band(Mesh& mesh, const std::vector<PlanePoint>& curve, unsigned int finest_level, double inner,
-               double outer) {
-    bool flagged = false;
+bool flag_bands(Mesh& mesh, const std::vector<RefinedBand>& bands) {
     for (const auto& cell : mesh.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
-        const double distance = distance_to_cell(cell_box(cell), curve);
+        const CellBox box = cell_box(cell);
         const auto level = static_cast<unsigned int>(cell->level());
-        if (level < finest_level && distance < inner)
+        bool refine = false, keep = level == 0;
+        for (const auto& band : bands) {
+            if (band.level < level) continue;
+            const double distance = distance_to_cell(box, band.curve);
+            refine = refine || (band.level > level && distance < band.inner);
+            keep = keep || distance <= band.outer;
+        }
+        if (refine)
             cell->set_refine_flag();
-        else if (level > 0 && distance > outer)
+        else if (!keep)
             cell->set_coarsen_flag();
-        else
-            continue;
-        flagged = true;
     }
-    return dealii::Utilities::MPI::max(flagged ? 1 : 0, mesh.get_communicator()) == 1;
+    mesh.prepare_coarsening_and_refinement();
+    bool changes = false;
+    for (const auto& cell : mesh.active_cell_iterators())
+        changes = changes || (cell->is_locally_owned() && (cell->refine_flag_set() || cell->coarsen_flag_set()));
+    return dealii::Utilities::MPI::max(changes ? 1 : 0, mesh.get_communicator()) == 1;
 }
 
 }  // namespace endoflow::phasefield

@@ -19,8 +19,14 @@ std::unique_ptr<Mesh> coarse_mesh(const Parameters& parameters, MPI_Comm communi
 /// Distance of a cell from a polyline: zero when they meet [nm].
 double distance_to_cell(const CellBox& box, const std::vector<PlanePoint>& curve);
 
-/// Sets refinement flags so that all cells within `inner` [nm] of the curve get the finest level, one level per call,
-/// and those farther than `outer` may coarsen. Returns true (on all ranks) when a cell anywhere is flagged.
-bool flag_band(Mesh& mesh, const std::vector<PlanePoint>& curve, unsigned int finest_level, double inner, double outer);
+/// Cells within `inner` [nm] of the curve get at least this level; those farther than `outer` need it no longer.
+struct RefinedBand {
+    std::vector<PlanePoint> curve;
+    unsigned int level;
+    double inner, outer;
+};
+
+/// Sets refinement flags, one level per call. Returns true (on all ranks) when the mesh would change.
+bool flag_bands(Mesh& mesh, const std::vector<RefinedBand>& bands);
 
 }  // namespace endoflow::phasefield

@@ -21,12 +21,7 @@ Vector carry_over(Transfer& transfer, const Space& space) {
 bool adapt_once(Discretization& d, State& state, const std::vector<PlanePoint>& curve) {
     const auto widths = band_widths(d.parameters.phase_field);
     const auto finest = static_cast<unsigned int>(d.parameters.phase_field.far_refinements);
-    flag_band(*d.mesh, curve, finest, widths.inner, widths.outer);
-    d.mesh->prepare_coarsening_and_refinement();
-    bool changes = false;
-    for (const auto& cell : d.mesh->active_cell_iterators())
-        changes = changes || (cell->is_locally_owned() && (cell->refine_flag_set() || cell->coarsen_flag_set()));
-    if (dealii::Utilities::MPI::max(changes ? 1 : 0, d.communicator) == 0) return false;
+    if (!flag_bands(*d.mesh, {{curve, finest, widths.inner, widths.outer}})) return false;
 
     Transfer flow(d.spaces.flow.dofs), molecules(d.spaces.molecules.dofs), stretching(d.spaces.stretching.dofs);
     flow.prepare_for_coarsening_and_refinement(state.flow);

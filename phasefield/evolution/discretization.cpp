@@ -47,10 +47,7 @@ State initial_state(Discretization& d) {
     for (double r = 0; r <= p.domain.radius; r += 0.25 * p.phase_field.cell_size) curve.push_back({r, z0});
     const auto widths = band_widths(p.phase_field);
     const auto finest = static_cast<unsigned int>(p.phase_field.far_refinements);
-    for (unsigned int level = 0; level < finest; ++level) {
-        flag_band(*d.mesh, curve, finest, widths.inner, 1e300);
-        d.mesh->execute_coarsening_and_refinement();
-    }
+    while (flag_bands(*d.mesh, {{curve, finest, widths.inner, 1e300}})) d.mesh->execute_coarsening_and_refinement();
     d.renew();
 
     State state = empty_state(d.spaces);

@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t n_features = 3 * n_fields;
 constexpr Op operations[3] = {Op::value, Op::dr, Op::dz};
 using FeatureDual = Dual<n_features>;
+constexpr double last_normal_below = 1e-2;  // of (1 − φ²)²
+constexpr double shortest_gradient = 0.3;   // below it normals fade: they are about to cross
 
 template <class Number>
 const Number& feature(const AtPoint<Number>& at, unsigned int operation) {
@@ -47,12 +49,18 @@ class HistoryFields {
             cell->get_dof_values((*history_->solutions)[j], values_);
             add_past(box, history_->weights[j], points);
         }
-        cell->get_dof_values(*history_->predictor, values_);
+        // The predicted normal in the layer; the last one far from it, where extrapolation would amplify what is there.
+        cell->get_dof_values(history_->solutions->front(), values_);
         field(distance, box, psi_);
+        cell->get_dof_values(*history_->predictor, values_);
+        field(distance, box, predicted_);
         for (std::size_t q = 0; q < points.size(); ++q) {
-            const double length = std::hypot(psi_.r[q], psi_.z[q], gradient_floor);
-            points[q].normal_r = psi_.r[q] / length;
-            points[q].normal_z = psi_.z[q] / length;
+            const double well = layer_profile(psi_.value[q], step_->numerics.epsilon).squared_well;
+            const double w = well / (well + last_normal_below);
+            const double r = w * predicted_.r[q] + (1 - w) * psi_.r[q], z = w * predicted_.z[q] + (1 - w) * psi_.z[q];
+            const double length = std::max(std::hypot(r, z), shortest_gradient);
+            points[q].normal_r = r / length;
+            points[q].normal_z = z / length;
         }
     }
 
@@ -71,7 +79,6 @@ class HistoryFields {
         for (std::size_t q = 0; q < points.size(); ++q) {
             const auto layer = layer_profile(psi_.value[q], step_->numerics.epsilon);
             const double surface = layer.delta + surface_floor;
-            points[q].indicator += weight * layer_indicator(layer.phi);
             points[q].distance += weight * psi_.value[q];
             points[q].molecules += weight * surface * c_.value[q];
             points[q].stretching += weight * surface * s_.value[q];
@@ -86,7 +93,7 @@ class HistoryFields {
     std::map<unsigned int, ScalarBasis> bases_;
     dealii::Vector<double> values_;
     std::vector<double> coefficients_;
-    ScalarField psi_, c_, s_, u_r_, u_z_;
+    ScalarField psi_, predicted_, c_, s_, u_r_, u_z_;
 };
 
 }  // namespace

@@ -59,7 +59,7 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
         const auto &old_psi = old_distance.on(cell, box, before), &guess = predicted_distance.on(cell, box, predicted);
         const auto &ur = local.field(velocity_r), &uz = local.field(velocity_z), &psi = local.field(distance),
                    &lambda = local.field(tension_rest), &c = local.field(molecule_density),
-                   &s = local.field(membrane_stretch), &h = local.field(curvature), &g = local.field(bending_force);
+                   &s = local.field(membrane_stretch), &b = local.field(moment), &g = local.field(normal_force);
         for (unsigned int q = 0; q < quadrature.size(); ++q) {
             const double r = box.r0 + box.hr * quadrature.point(q)[0];
             const double w = two_pi * quadrature.weight(q) * box.hr * box.hz * r;
@@ -67,7 +67,7 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
             const double gradient = std::hypot(psi.r[q], psi.z[q]), surface = layer.delta + surface_floor;
             const double length = std::hypot(gradient, gradient_floor);
             const auto bending = stiffness_of(c.value[q], model);
-            const double K = h.value[q] + bending.curvature;
+            const double K = b.value[q] / bending.beta;
             const double nu = layer_viscosity(layer.phi, step.fluid, numerics.viscosity_mean);
             const double hoop = ur.value[q] / r, shear = ur.z[q] + uz.r[q];
             const double along = (psi.r[q] * lambda.r[q] + psi.z[q] * lambda.z[q]) / length;
@@ -78,7 +78,7 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
             sums[3] += w * 0.5 * layer.delta * bending.beta * K * K;
             sums[4] += w * nu * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
             if (step.fluid.dynamics == Dynamics::geometric)
-                sums[5] += w * step.fluid.normal_mobility * g.value[q] * g.value[q] / surface;
+                sums[5] += w * step.fluid.normal_mobility * g.value[q] * g.value[q] * surface;
             sums[6] += w * (numerics.tension_alignment * (layer.squared_well + alignment_floor) * along * along +
                             leak * (lambda.r[q] * lambda.r[q] + lambda.z[q] * lambda.z[q]));
             if (std::abs(layer.phi) > layer_edge) continue;

@@ -7,7 +7,7 @@ namespace endoflow::phasefield::production {
 std::vector<unsigned int> field_degrees(const PhaseFieldParameters& p) {
     const auto k = static_cast<unsigned int>(p.degree), ku = static_cast<unsigned int>(p.velocity_degree),
                kt = static_cast<unsigned int>(p.tension_degree), ks = static_cast<unsigned int>(p.surface_degree);
-    return {ku, ku, ku - 1, kt, k, k, k, ks, ks, ks};
+    return {ku, ku, ku - 1, kt, kt, k, k, k, ks, ks, ks};
 }
 
 void close_constraints(Space& space, const Parameters& p) {
@@ -18,11 +18,12 @@ void close_constraints(Space& space, const Parameters& p) {
         const bool pinned = boundary == side && std::abs(z - p.domain.membrane_height) <= height_of_pin;
         const bool fixed =
             (component == velocity_r && boundary == axis) ||
-            (pinned && (component == velocity_z || component == distance || component == bending_force)) ||
+            (pinned && (component == velocity_z || component == distance || component == normal_force)) ||
             (boundary == side && component == membrane_stretch);
         if (fixed && !space.constraints.is_constrained(index)) space.constraints.add_line(index);
     });
-    if (!flow) switch_off(space, {velocity_r, velocity_z, pressure_rest, tension_rest, membrane_stretch});
+    if (!flow)
+        switch_off(space, {velocity_r, velocity_z, pressure_rest, pressure_layer, tension_rest, membrane_stretch});
     if (flow && !p.membrane.inextensible) switch_off(space, {tension_rest});
     space.constraints.close();
 }

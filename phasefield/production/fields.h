@@ -11,15 +11,16 @@ enum Field : unsigned int {
     velocity_r,
     velocity_z,
     pressure_rest,       // p without the layer's own part, see point_equations.h [pN/nm²]
-    tension_rest,        // λ + ½ β K², λ the tension of the sharp model [pN/nm]
+    pressure_layer,      // the layer's own pressure per δ [pN/nm]
+    tension_rest,        // tension less b (K − C), see sharp_tension() [pN/nm]
     distance,            // ψ [nm], φ = tanh(ψ/(√2 ε))
-    bending_force,       // g = δE/δψ [pN/nm³]
-    curvature,           // h = K − C, about Δψ [1/nm]
+    normal_force,        // G, the variation of the energy per area, δ G = δE/δψ [pN/nm²]
+    moment,              // b = β K [pN]
     molecule_density,    // c
     molecule_potential,  // μ
     membrane_stretch,    // s
 };
-inline constexpr unsigned int n_fields = 10;
+inline constexpr unsigned int n_fields = 11;
 
 /// One field and its derivatives at one point; also one row of a weak form: the factors of the test function and of its
 /// derivatives.

@@ -1,5 +1,8 @@
 #include <deal.II/distributed/solution_transfer.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "phasefield/io/mesh_checkpoint.h"
 #include "phasefield/production/production_scheme.h"
 
@@ -9,6 +12,10 @@ namespace {
 
 using Transfer = dealii::parallel::distributed::SolutionTransfer<2, Vector>;
 
+constexpr double edge_cells = 0.75;  // largest cell at the patch's edge, in units of its width
+constexpr double edge_band = 3;      // half-width of the finer cells there, in units of ε
+constexpr int most_passes = 8;       // a cell changes by one level per pass
+
 std::vector<const Vector*> addresses(const std::vector<Vector>& vectors) {
     std::vector<const Vector*> out;
     for (const auto& vector : vectors) out.push_back(&vector);
@@ -17,14 +24,22 @@ std::vector<const Vector*> addresses(const std::vector<Vector>& vectors) {
 
 }  // namespace
 
-bool ProductionScheme::adapt_once(const std::vector<PlanePoint>& curve) {
-    const auto finest = static_cast<unsigned int>(parameters_.phase_field.far_refinements);
-    flag_band(*mesh_, curve, finest, band(), band() + 2 * parameters_.phase_field.cell_size);
-    mesh_->prepare_coarsening_and_refinement();
-    bool changes = false;
-    for (const auto& cell : mesh_->active_cell_iterators())
-        changes = changes || (cell->is_locally_owned() && (cell->refine_flag_set() || cell->coarsen_flag_set()));
-    if (dealii::Utilities::MPI::max(changes ? 1 : 0, mesh_->get_communicator()) == 0) return false;
+std::vector<RefinedBand> ProductionScheme::bands(const MembraneCurve& curve) const {
+    const auto& p = parameters_.phase_field;
+    const auto finest = static_cast<unsigned int>(p.far_refinements);
+    std::vector<RefinedBand> out{{positions(curve), finest, band(), band() + 2 * p.cell_size}};
+    const double wanted = edge_cells * parameters_.molecules.interface_width;
+    const auto extra = static_cast<unsigned int>(std::max(0.0, std::ceil(std::log2(p.cell_size / wanted))));
+    if (extra == 0) return out;
+    std::vector<PlanePoint> edge;
+    for (std::size_t i = 0; i < curve.size(); ++i)
+        if (std::abs(curve.c[i] - 0.5) < 0.49) edge.push_back({curve.r[i], curve.z[i]});
+    out.push_back({std::move(edge), finest + extra, edge_band * p.epsilon, edge_band * p.epsilon + p.cell_size});
+    return out;
+}
+
+bool ProductionScheme::adapt_once(const MembraneCurve& curve) {
+    if (!flag_bands(*mesh_, bands(curve))) return false;
 
     Transfer transfer(space_.dofs);
     transfer.prepare_for_coarsening_and_refinement(addresses(solutions_));
@@ -44,8 +59,7 @@ void ProductionScheme::follow(const MembraneCurve& curve) {
     if (moved_ < follow_after_motion * parameters_.phase_field.epsilon) return;
     moved_ = 0;
     bool adapted = false;
-    for (int pass = 0; pass < parameters_.phase_field.far_refinements && adapt_once(positions(curve)); ++pass)
-        adapted = true;
+    for (int pass = 0; pass < most_passes && adapt_once(curve); ++pass) adapted = true;
     if (!adapted) return;
     system_.reinit(space_, pattern_.couplings);
     // Cells are coarsened outside of the layer alone; what that changes in ∫δ c and ∫δ s is restored to round-off.

@@ -13,17 +13,17 @@ namespace endoflow::phasefield::production {
 // its exact Jacobian. The unknown is ψ with φ = tanh(ψ/(√2 ε)), so that all fields are smooth across the layer.
 //
 //   δ(ψ) = 3 (1 − φ²)²/(4√2 ε),  ∫δ dψ = 1,    H(ψ) = (3φ − φ³)/4,  H' = δ,
-//   K = h + C,  h = Δψ + √2 φ (1 − |∇ψ|²)/ε,   E = ∫ ½ β δ K² dx,   b = β K,
+//   K = h + C,  h = Δψ + √2 φ (1 − |∇ψ|²)/ε,   E = ∫ ½ β δ K² dx,   b = β K.
 //
-// (h rather than b is an unknown: then the forces along the membrane, e ∇c − δ ∇(½ β K²) = −δ b ∇h, are smooth at the
-// patch's edge.) This is (D) with φ = tanh(ψ/(√2 ε)) put in. Its variation is g = ∇·(δ ∇b) + ½ δ' β K² − √2 b δ φ' (1 −
-// |∇ψ|²)/ε. δ weighs everything that lives on the membrane (tension, molecules, stretching, the motion of ψ, the step
-// of the viscosity), so that the layer's first-order effects cancel: what remains is O(ε²).
+// This is (D) with φ = tanh(ψ/(√2 ε)) put in. δ weighs everything that lives on the membrane (tension, molecules,
+// stretching, the motion of ψ, the step of the viscosity), so that the layer's first-order effects cancel: what remains
+// is O(ε²). The force on the fluid is δ G ∇ψ + e ∇c, where δ G is the variation of the discrete energy with respect to
+// ψ, and ψ moves with the same weight δ: then the work of the force is exactly the energy's change. Without that,
+// motions at the scale of the cells gain energy and grow.
 
 /// What is known at a point besides the iterate: Σ_j a_j y(t_j) of the past for every quantity with a time derivative,
-/// and the predicted normal.
+/// and the normal at which alignment aims.
 struct PointHistory {
-    double indicator = 0;   // of H
     double distance = 0;    // of ψ
     double molecules = 0;   // of δ c
     double stretching = 0;  // of δ s
@@ -39,13 +39,16 @@ struct StepNumbers {
     MoleculeParameters molecules;
 };
 
-inline constexpr double surface_floor = 1e-8;   // [1/nm] added to δ, so that c and s are defined everywhere
-inline constexpr double distance_floor = 1e-5;  // part of (1 − φ²)² that moves ψ far from the layer
-inline constexpr double profile_floor =
-    3e-2;  // the same for the flux that keeps |∇ψ| = 1, which ties the tails to the layer
+inline constexpr double surface_floor = 1e-8;    // [1/nm] added to δ, so that G, c and s are defined everywhere
+inline constexpr double energy_floor = 4e-5;     // [1/nm] f of the energy's weight
+inline constexpr double moment_floor = 4e-5;     // [nm] continues b smoothly where the energy has no weight
+inline constexpr double distance_floor = 2e-8;   // part of (1 − φ²)² that moves ψ far from the layer
+inline constexpr double profile_floor = 1e-5;    // the same for the flux that keeps |∇ψ| = 1
 inline constexpr double alignment_floor = 1e-4;  // the same for λ
-inline constexpr double tail_diffusivity = 100;  // [nm²/µs] smooths ψ in the tails, where normals may cross
-inline constexpr double gradient_floor = 1e-3;   // of |∇ψ| in the normal
+inline constexpr double far_smoothing = 1.02;    // 1/|∇ψ| far from the layer, where ψ solves a Poisson equation
+inline constexpr double layer_pressure_alignment = 30;
+inline constexpr double pressure_leak = 0.01;
+inline constexpr double gradient_floor = 1e-3;  // of |∇ψ| in the normal
 
 /// φ, δ, δ' and the rest that only depend on ψ.
 template <class Number>
@@ -112,57 +115,76 @@ Number layer_viscosity(const Number& phi, const FluidParameters& fluid, Viscosit
 template <class Number>
 struct PointGeometry {
     LayerProfile<Number> layer;
-    Number normal_r, normal_z, defect;  // n = ∇ψ/|∇ψ|; √2 (1 − |∇ψ|²)/ε [1/nm]
+    Number normal_r, normal_z, squared_gradient;  // n = ∇ψ/|∇ψ|; |∇ψ|²
 };
 
-/// The bending state: K, b = β K with its gradient, the density ½ β K² and e = δ ∂(½ β K²)/∂c.
+/// The weight of the bending energy: δ with its tails cut off, δ²/(δ + f), so that the defects of ψ where normals cross
+/// exert no force. And its two derivatives with respect to ψ.
+template <class Number>
+struct EnergyWeight {
+    Number value, first, second;
+};
+
+template <class Number>
+EnergyWeight<Number> energy_weight(const LayerProfile<Number>& layer, double epsilon) {
+    const double a = 2 / (inverse_sqrt2 * epsilon);
+    const Number& d = layer.delta;
+    const Number slope = (inverse_sqrt2 / epsilon) * (1.0 - layer.phi * layer.phi);  // dφ/dψ
+    const Number d1 = layer.delta_slope, d2 = -a * (slope * d + layer.phi * d1);
+    const Number inverse = 1.0 / (d + energy_floor), part = d * inverse, rest = energy_floor * inverse;
+    const Number g1 = part * (part + 2.0 * rest), g2 = 2.0 * rest * rest * inverse;
+    return {d * part, g1 * d1, g2 * d1 * d1 + g1 * d2};
+}
+
+/// The bending energy as a functional of ψ, the moment b and c whose stationary value over b is E:
+///
+///   E = ∫ w b h + w (b C − b²/(2 β)) dx,   h = Δψ + √2 φ (1 − |∇ψ|²)/ε,   w the weight above,
+///
+/// the Laplacian of ψ integrated by parts. Its derivatives with respect to b, ψ and c are the rows of b and of the
+/// normal force G and the force e ∇c, so that the discrete equations obey the energy law.
 template <class Number>
 struct PointBending {
-    Number K, b, b_r, b_z, density, concentration_force;
+    Number work, density, concentration_force;  // b/β [1/nm]; ½ b²/β [pN/nm]; e [pN/nm²]
 };
 
 template <class Number>
-PointBending<Number> point_bending(const Fields<Number>& x, const LayerProfile<Number>& layer,
-                                   const BendingModel& model) {
-    const auto &h = x[curvature], &c = x[molecule_density];
-    const Stiffness<Number> m = stiffness_of(c.value, model);
-    const Number K = h.value + m.curvature, b = m.beta * K;
-    const Number by_c = K * m.beta_c + m.beta * m.curvature_c;  // db/dc at fixed h
-    const Number density = 0.5 * K * b;
-    return {K,
-            b,
-            m.beta * h.r + by_c * c.r,
-            m.beta * h.z + by_c * c.z,
-            density,
-            layer.delta * (0.5 * K * K * m.beta_c + b * m.curvature_c)};
+PointBending<Number> add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const BendingModel& model,
+                                 double epsilon, Fields<Number>& row) {
+    const auto &psi = x[distance], &b = x[moment];
+    const Stiffness<Number> m = stiffness_of(x[molecule_density].value, model);
+    const EnergyWeight<Number> w = energy_weight(p.layer, epsilon);
+    const double scale = 1 / (inverse_sqrt2 * epsilon);  // √2/ε
+    const Number K = b.value / m.beta, density = 0.5 * K * b.value;
+    const Number slope = (0.5 * scale) * (1.0 - p.layer.phi * p.layer.phi);  // dφ/dψ
+    const Number defect = scale * (1.0 - p.squared_gradient);
+    const Number strength = w.value * p.layer.phi, turn = w.first * p.layer.phi + w.value * slope;
+    const double smoothing = moment_floor / model.stiffness(0).value;
+    row[moment] = {w.value * (K - m.curvature) - strength * defect + w.first * p.squared_gradient,
+                   w.value * psi.r + smoothing * b.r, w.value * psi.z + smoothing * b.z};
+    const Number twist = 2.0 * (w.first + scale * strength) * b.value;
+    row[normal_force] = {(p.layer.delta + surface_floor) * x[normal_force].value +
+                             w.first * (psi.r * b.r + psi.z * b.z - m.curvature * b.value + density) +
+                             (w.second * p.squared_gradient - turn * defect) * b.value,
+                         w.value * b.r + twist * psi.r, w.value * b.z + twist * psi.z};
+    return {b.value * (K - m.curvature), density, w.value * (b.value * m.curvature_c + 0.5 * K * K * m.beta_c)};
 }
 
-/// Bending: h from ∫ (h − √2 φ (1 − |∇ψ|²)/ε) η + ∇ψ·∇η and g as the variation above.
-template <class Number>
-void add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const PointBending<Number>& bending,
-                 double epsilon, Fields<Number>& row) {
-    const auto& psi = x[distance];
-    row[curvature] = {x[curvature].value - p.layer.phi * p.defect, psi.r, psi.z};
-    const Number slope = (inverse_sqrt2 / epsilon) * (1.0 - p.layer.phi * p.layer.phi);  // dφ/dψ
-    row[bending_force] = {
-        x[bending_force].value - p.layer.delta_slope * bending.density - p.layer.delta * bending.b * p.defect * slope,
-        p.layer.delta * bending.b_r, p.layer.delta * bending.b_z};
-}
-
-/// (32), (33): momentum with the forces g ∇ψ + e ∇c − ∇·(δ λ P), and volume. The pressure balances the layer's own
-/// stress δ (½ β K² + ∇ψ·∇b) and the tension the jump −½ β K² of the energy at the patch's edge; both are taken out of
-/// the unknowns, so that what is left is smooth. Otherwise the part of that gradient force which the discrete pressure
-/// and tension cannot balance would drive a spurious flow through the edge.
+/// (32), (33): momentum with the forces δ G ∇ψ + e ∇c − ∇·(δ λ P), and volume. The pressure balances the layer's own
+/// stress δ (½ β K² + ∇ψ·∇b), and the tension jumps by b h at the patch's edge; both are taken out of the unknowns, so
+/// that what is left is smooth. What is left of the pressure in the layer is δ q with q constant along the normal, the
+/// multiplier of ∫δ ∇·u across the layer: p alone, continuous and quadratic, cannot follow δ on cells as wide as the
+/// layer, and the rest would drive a spurious flow.
 template <class Number>
 void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const PointBending<Number>& bending, double r,
               const PointHistory& past, const StepNumbers& step, Fields<Number>& row) {
     const auto &ur = x[velocity_r], &uz = x[velocity_z], &psi = x[distance], &c = x[molecule_density];
-    const Number &g = x[bending_force].value, &e = bending.concentration_force;
+    const Number g = (p.layer.delta + surface_floor) * x[normal_force].value;
+    const Number& e = bending.concentration_force;
     const Number nu = layer_viscosity(p.layer.phi, step.fluid, step.numerics.viscosity_mean);
     const Number hoop = ur.value / r, divergence = ur.r + hoop + uz.z;
-    const Number pressure =
-        x[pressure_rest].value + p.layer.delta * (bending.density + psi.r * bending.b_r + psi.z * bending.b_z);
-    const Number tension = p.layer.delta * (x[tension_rest].value - bending.density);
+    const Number pressure = x[pressure_rest].value + p.layer.delta * (x[pressure_layer].value + bending.density +
+                                                                      (psi.r * x[moment].r + psi.z * x[moment].z));
+    const Number tension = p.layer.delta * (x[tension_rest].value + bending.work);
     const Number shear = nu * (ur.z + uz.r) - tension * p.normal_r * p.normal_z;
     row[velocity_r] = {(2.0 * nu * hoop - pressure + tension) / r - g * psi.r - e * c.r,
                        2.0 * nu * ur.r - pressure + tension * (1.0 - p.normal_r * p.normal_r), shear};
@@ -174,6 +196,12 @@ void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Poi
         row[velocity_z].value += rho * (step.rate * uz.value + past.velocity_z + ur.value * uz.r + uz.value * uz.z);
     }
     row[pressure_rest].value = -divergence;
+    const auto& q = x[pressure_layer];
+    const Number along = (layer_pressure_alignment * (p.layer.squared_well + alignment_floor)) *
+                         (past.normal_r * q.r + past.normal_z * q.z);
+    const Number phi2 = p.layer.phi * p.layer.phi, leak = step.numerics.tension_leak * phi2 * phi2;
+    row[pressure_layer] = {-p.layer.delta * (divergence + pressure_leak * q.value),
+                           -(along * past.normal_r + leak * q.r), -(along * past.normal_z + leak * q.z)};
 }
 
 /// (34): P:∇u = ζ (s − 1) on the average across the layer. λ is kept constant along the normal by the alignment
@@ -194,24 +222,24 @@ void add_inextensibility(const Fields<Number>& x, const PointGeometry<Number>& p
                          -(along * past.normal_r + leak * lambda.r), -(along * past.normal_z + leak * lambda.z)};
 }
 
-/// (35): H(ψ) moves with the fluid, δ ( ∂ψ/∂t + u·∇ψ ) = −(mobility) g, and |∇ψ| = 1 is kept by a flux along the
-/// normal, M ε δ (n·∇ψ − 1) n. That flux conserves ∫H, so it does not move the membrane. Divided by max δ.
+/// (35): δ ( ∂ψ/∂t + u·∇ψ ) = −(mobility) δ G, and |∇ψ| = 1 is kept by a flux along the normal, M ε δ (n·∇ψ − 1) n.
+/// That flux conserves ∫H, so it does not move the membrane. Far from the layer ψ solves ∇·(a ∇ψ − n) = 0 with the last
+/// normals n, a a little above 1: normals may cross there. Divided by max δ.
 template <class Number>
 void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past,
                 const StepNumbers& step, Fields<Number>& row) {
     const auto& psi = x[distance];
     const double epsilon = step.numerics.epsilon, length = epsilon / (0.75 * inverse_sqrt2);  // 1/max δ
     const Number weight = p.layer.squared_well + distance_floor;
-    const Number flux =
-        (step.numerics.profile_relaxation * epsilon) * weight * (past.normal_r * psi.r + past.normal_z * psi.z - 1.0);
-    Number rate = length * (step.rate * layer_indicator(p.layer.phi) + past.indicator) +
-                  distance_floor * (step.rate * psi.value + past.distance) +
-                  weight * (x[velocity_r].value * psi.r + x[velocity_z].value * psi.z);
+    const double relaxation = step.numerics.profile_relaxation * epsilon;
+    const Number flux = relaxation * p.layer.squared_well * (past.normal_r * psi.r + past.normal_z * psi.z - 1.0);
+    const double far = relaxation * profile_floor;
+    Number rate =
+        weight * (step.rate * psi.value + past.distance + x[velocity_r].value * psi.r + x[velocity_z].value * psi.z);
     if (step.fluid.dynamics == Dynamics::geometric)
-        rate += (length * step.fluid.normal_mobility) * x[bending_force].value;
-    const Number phi2 = p.layer.phi * p.layer.phi;
-    const Number smoothing = (tail_diffusivity * phi2 * phi2 * phi2 * phi2) * weight;
-    row[distance] = {rate, flux * past.normal_r + smoothing * psi.r, flux * past.normal_z + smoothing * psi.z};
+        rate += (length * step.fluid.normal_mobility) * (p.layer.delta + surface_floor) * x[normal_force].value;
+    row[distance] = {rate, flux * past.normal_r + far * (far_smoothing * psi.r - past.normal_r),
+                     flux * past.normal_z + far * (far_smoothing * psi.z - past.normal_z)};
 }
 
 /// D_n ∇·(δ n n·∇y): keeps y constant along the normal, the predicted one, so that the term is linear.
@@ -271,11 +299,9 @@ Fields<Number> point_equations(const Fields<Number>& x, double r, const PointHis
     const auto& psi = x[distance];
     const Number squared = psi.r * psi.r + psi.z * psi.z;
     const Number inverse = inverse_root(squared + gradient_floor * gradient_floor);
-    const PointGeometry<Number> p{layer_profile(psi.value, epsilon), psi.r * inverse, psi.z * inverse,
-                                  (1 / (inverse_sqrt2 * epsilon)) * (1.0 - squared)};
-    const PointBending<Number> bending = point_bending(x, p.layer, model);
+    const PointGeometry<Number> p{layer_profile(psi.value, epsilon), psi.r * inverse, psi.z * inverse, squared};
     Fields<Number> row;
-    add_bending(x, p, bending, epsilon, row);
+    const PointBending<Number> bending = add_bending(x, p, model, epsilon, row);
     add_flow(x, p, bending, r, past, step, row);
     add_inextensibility(x, p, past, r, step.numerics, row);
     add_motion(x, p, past, step, row);

@@ -14,12 +14,14 @@ namespace endoflow::phasefield::production {
 namespace {
 
 constexpr std::size_t highest_order = 2;
-constexpr double first_steps = 3;       // before the error can be estimated
-constexpr double safety = 0.85;         // of the step
-constexpr double largest_growth = 2;    // per step
-constexpr double tolerated_excess = 2;  // of the error over its tolerance, beyond which a step is repeated
-constexpr double newton_part = 0.01;    // of the step's tolerance to which Newton's method converges
+constexpr double first_steps = 3;          // before the error can be estimated
+constexpr double safety = 0.85;            // of the step
+constexpr double largest_growth = 2;       // per step
+constexpr double tolerated_excess = 2;     // of the error over its tolerance, beyond which a step is repeated
+constexpr double linear_tolerance = 1e-4;  // of each Newton correction
+constexpr double newton_part = 0.01;       // of the step's tolerance to which Newton's method converges
 constexpr int most_newton_iterations = 8;
+constexpr int fresh_factors = 2;        // iterations with factors of their own; the others use the last ones
 constexpr double smallest_step = 1e-5;  // of the first one
 constexpr double largest_motion = 1.5;  // of the membrane in one step, in units of ε
 
@@ -36,7 +38,7 @@ ProductionScheme::ProductionScheme(const Parameters& parameters, MPI_Comm commun
       mesh_(coarse_mesh(parameters, communicator)),
       space_(*mesh_, field_degrees(parameters.phase_field)),
       pattern_(parameters, model_),
-      system_(communicator, "coupled"),
+      system_(communicator, "coupled", linear_tolerance),
       numbers_{0, parameters.phase_field, parameters.fluid, parameters.molecules},
       nominal_(parameters.time.initial_step) {}
 
@@ -59,17 +61,14 @@ class PhysicalFields : public dealii::DataPostprocessor<2> {
                                std::vector<dealii::Vector<double>>& out) const override {
         for (std::size_t q = 0; q < out.size(); ++q) {
             const auto& value = in.solution_values[q];
+            out[q](0) = equilibrium_profile(value(distance), epsilon_);
             const auto& gradient = in.solution_gradients[q];
-            const auto layer = layer_profile(value(distance), epsilon_);
-            Fields<double> x{};
-            x[curvature] = {value(curvature), gradient[curvature][0], gradient[curvature][1]};
-            x[molecule_density] = {value(molecule_density), gradient[molecule_density][0],
-                                   gradient[molecule_density][1]};
-            const auto bending = point_bending(x, layer, *model_);
-            out[q](0) = layer.phi;
-            out[q](1) = value(pressure_rest) + layer.delta * (bending.density + gradient[distance][0] * bending.b_r +
-                                                              gradient[distance][1] * bending.b_z);
-            out[q](2) = value(tension_rest) - bending.density;
+            const auto coefficients = bending_coefficients(*model_, value(molecule_density));
+            const double b = value(moment);
+            out[q](1) = value(pressure_rest) + layer_profile(value(distance), epsilon_).delta *
+                                                   (value(pressure_layer) + 0.5 * b * b / coefficients.stiffness +
+                                                    gradient[distance] * gradient[moment]);
+            out[q](2) = sharp_tension(value(tension_rest), b, coefficients);
         }
     }
 
@@ -95,8 +94,8 @@ void ProductionScheme::renew() {
 }
 
 Contour ProductionScheme::contour(const Vector& solution) const {
-    const ContourFields fields{&space_,      &solution, distance, velocity_r, velocity_z,
-                               tension_rest, 1,         &space_,  &solution,  molecule_density};
+    const ContourFields fields{&space_, &solution, distance,  velocity_r,       velocity_z, tension_rest,
+                               1,       &space_,   &solution, molecule_density, moment,     &model_};
     return extract_contour(fields, parameters_);
 }
 
@@ -109,14 +108,13 @@ StepOutcome ProductionScheme::present() {
 
 StepOutcome ProductionScheme::start() {
     const double z0 = parameters_.domain.membrane_height;
-    std::vector<PlanePoint> curve;
-    for (double r = 0; r <= parameters_.domain.radius; r += 0.25 * parameters_.phase_field.cell_size)
-        curve.push_back({r, z0});
-    const auto finest = static_cast<unsigned int>(parameters_.phase_field.far_refinements);
-    for (unsigned int level = 0; level < finest; ++level) {
-        flag_band(*mesh_, curve, finest, band(), 1e300);
-        mesh_->execute_coarsening_and_refinement();
+    MembraneCurve curve;
+    for (double r = 0; r <= parameters_.domain.radius; r += 0.25 * parameters_.phase_field.cell_size) {
+        curve.r.push_back(r);
+        curve.z.push_back(z0);
+        curve.c.push_back(initial_concentration(parameters_.molecules, r));
     }
+    while (flag_bands(*mesh_, bands(curve))) mesh_->execute_coarsening_and_refinement();
     renew();
 
     Vector solution = space_.vector();
@@ -158,13 +156,14 @@ void ProductionScheme::solve(Vector& solution, const StepHistory& history) {
     std::string changes;
     for (int iteration = 0; iteration < most_newton_iterations; ++iteration) {
         assemble(space_, pattern_, model_, numbers_, history, solution, system_);
-        system_.forget_factors();
+        if (iteration < fresh_factors) system_.forget_factors();
         Vector increment = space_.vector();
         system_.solve(space_, increment);
         const double change = layer_increment(space_, parameters_.phase_field.epsilon, increment, solution);
         solution += increment;
         solution.update_ghost_values();
-        if (change <= wanted) return;
+        const double rate = change / last;  // Newton's method squares it in the next iteration
+        if (change <= wanted || (iteration > 0 && change * rate * rate <= wanted)) return;
         char text[24];
         std::snprintf(text, sizeof text, " %.1e", change);
         changes += text;
@@ -241,8 +240,8 @@ void ProductionScheme::write_fields(const std::filesystem::path& run_directory, 
     const PhysicalFields physical(parameters_.phase_field.epsilon, model_);
     data.add_data_vector(
         space_.dofs, solutions_.front(),
-        std::vector<std::string>{"velocity", "velocity", "pressure_rest", "tension_rest", "distance", "membrane_force",
-                                 "curvature", "c", "chemical_potential", "stretching"},
+        std::vector<std::string>{"velocity", "velocity", "pressure_rest", "pressure_layer", "tension_rest", "distance",
+                                 "normal_force", "moment", "c", "chemical_potential", "stretching"},
         meaning);
     data.add_data_vector(space_.dofs, solutions_.front(), physical);
     data.build_patches(space_.degrees[distance]);

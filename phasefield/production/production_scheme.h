@@ -35,7 +35,8 @@ class ProductionScheme : public Scheme {
   private:
     void distribute();
     void renew();
-    bool adapt_once(const std::vector<PlanePoint>& curve);
+    [[nodiscard]] std::vector<RefinedBand> bands(const MembraneCurve& curve) const;
+    bool adapt_once(const MembraneCurve& curve);
     [[nodiscard]] Vector predict(double time) const;
     void solve(Vector& solution, const StepHistory& history);
     [[nodiscard]] std::size_t order() const;

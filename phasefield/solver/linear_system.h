@@ -19,7 +19,8 @@ using Couplings = dealii::Table<2, dealii::DoFTools::Coupling>;
 /// the last factors serve as the preconditioner of GMRES for as long as they serve well.
 class LinearSystem {
   public:
-    LinearSystem(MPI_Comm communicator, std::string name);
+    /// `tolerance`: relative, of the residual.
+    LinearSystem(MPI_Comm communicator, std::string name, double tolerance = 1e-11);
     ~LinearSystem();
     LinearSystem(const LinearSystem&) = delete;
     LinearSystem& operator=(const LinearSystem&) = delete;
@@ -46,6 +47,7 @@ class LinearSystem {
 
     MPI_Comm communicator_;
     std::string name_;
+    double tolerance_;
     dealii::PETScWrappers::MPI::Vector solution_;
     KSP solver_ = nullptr;
     bool factors_valid_ = false;
