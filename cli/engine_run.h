@@ -4,6 +4,7 @@
 
 #include "command_line.h"
 #include "shared/output/run_output.h"
+#include "shared/support/error.h"
 #include "shared/support/interruption.h"
 
 namespace endoflow::cli {
@@ -17,7 +18,11 @@ template <class Simulation>
         output.finish(reason);
         return reason == ExitReason::interrupted ? exit_code_of_signal(interruption_signal()) : 0;
     } catch (const std::exception& failure) {
-        output.finish_with_error(failure.what());
+        try {
+            output.finish_with_error(failure.what());
+        } catch (const Error&) {
+            // A directory that takes no last word is not what stopped the run; `failure` is.
+        }
         throw;
     }
 }

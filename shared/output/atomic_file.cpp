@@ -20,6 +20,8 @@ namespace {
                               file.string(), action, std::strerror(errno)));
 }
 
+}  // namespace
+
 void flush_to_disk(const std::filesystem::path& path) {
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) fail(path, "opened");
@@ -27,8 +29,6 @@ void flush_to_disk(const std::filesystem::path& path) {
     ::close(descriptor);
     if (outcome != 0 && errno != EINVAL) fail(path, "written to the disk");
 }
-
-}  // namespace
 
 void publish_file(const std::filesystem::path& finished, const std::filesystem::path& final_name) {
     flush_to_disk(finished);
@@ -45,6 +45,17 @@ void write_file_atomically(const std::filesystem::path& file, const std::string&
         if (!stream) fail(temporary, "written");
     }
     publish_file(temporary, file);
+}
+
+void copy_file_atomically(const std::filesystem::path& file, const std::filesystem::path& copy) {
+    std::filesystem::path temporary = copy;
+    temporary += ".part";
+    std::error_code failure;
+    std::filesystem::copy_file(file, temporary, std::filesystem::copy_options::overwrite_existing, failure);
+    if (failure)
+        throw IoError(fmt::format("{}: cannot be copied to {}: {}; check that the disk has space left", file.string(),
+                                  temporary.string(), failure.message()));
+    publish_file(temporary, copy);
 }
 
 std::string read_file(const std::filesystem::path& file, std::uintmax_t largest) {

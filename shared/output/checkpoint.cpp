@@ -48,7 +48,11 @@ Checkpoint read_one(const std::filesystem::path& file) {
                                   file.string(), version, format_version));
     Checkpoint result;
     result.time_us = hdf5.read_number_attribute("/", "time_us");
-    for (const auto& name : hdf5.members("/scalars")) result.scalars[name] = hdf5.read_array("/scalars/" + name).at(0);
+    for (const auto& name : hdf5.members("/scalars")) {
+        const auto values = hdf5.read_array("/scalars/" + name);
+        if (values.size() != 1) throw IoError(file.string() + ": damaged checkpoint: no single value of " + name);
+        result.scalars[name] = values.front();
+    }
     for (const auto& name : hdf5.members("/arrays")) result.arrays[name] = hdf5.read_array("/arrays/" + name);
     for (const auto& name : hdf5.members("/texts")) result.texts[name] = from_codes(hdf5.read_array("/texts/" + name));
     return result;

@@ -14,6 +14,10 @@ namespace {
 /// No array of a run directory comes near this; a larger size in a file means that the file is damaged.
 constexpr hsize_t largest_array = hsize_t{1} << 28;
 
+/// Our handles close what they opened. HDF5's own clean-up at exit would try again what failed on a full disk, and
+/// crash; it can be declined before the first other call only.
+[[maybe_unused]] const herr_t no_exit_handler = H5dont_atexit();
+
 /// An HDF5 identifier that closes itself.
 class Handle {
   public:
@@ -32,13 +36,16 @@ class Handle {
 
 hid_t open_file(const std::filesystem::path& file, Hdf5File::Mode mode) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    // Without locks: who looks at the results of a run must not stop it.
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_file_locking(access, 0, 1);
     switch (mode) {
         case Hdf5File::Mode::read:
-            return H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+            return H5Fopen(file.c_str(), H5F_ACC_RDONLY, access);
         case Hdf5File::Mode::create:
-            return H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+            return H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
         case Hdf5File::Mode::extend:
-            return H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+            return H5Fopen(file.c_str(), H5F_ACC_RDWR, access);
     }
     return -1;
 }

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 #include "shared/output/atomic_file.h"
@@ -27,19 +29,23 @@ std::string number(double value, const std::string& what) {
     return fmt::format("{:.15g}", value);
 }
 
-/// The complete lines of a history up to a time: a crash may have left half a line at the end.
-std::string kept_rows(const std::string& content, double last_time_us) {
-    std::istringstream lines(content);
-    std::string kept, line;
-    std::getline(lines, line);
-    kept = line + "\n";
-    while (std::getline(lines, line)) {
-        if (lines.eof()) break;
-        double time = 0;
-        const bool readable = std::sscanf(line.c_str(), "%lf", &time) == 1;
-        if (readable && time <= last_time_us * (1 + 1e-12)) kept += line + "\n";
+bool not_later(double time_us, double last_time_us) {
+    return time_us <= last_time_us * (1 + 1e-12);
+}
+
+/// The time of a row; empty when the row is damaged: another number of cells, or cells that are not numbers.
+std::optional<double> time_of_row(const std::string& line, std::ptrdiff_t cells) {
+    if (std::count(line.begin(), line.end(), ',') + 1 != cells) return std::nullopt;
+    std::istringstream stream(line);
+    std::optional<double> time;
+    for (std::string cell; std::getline(stream, cell, ',');) {
+        if (cell.empty()) continue;
+        char* end = nullptr;
+        const double value = std::strtod(cell.c_str(), &end);
+        if (end != cell.c_str() + cell.size() || !std::isfinite(value)) return std::nullopt;
+        if (!time) time = value;
     }
-    return kept;
+    return line.starts_with(',') ? std::nullopt : time;
 }
 
 }  // namespace
@@ -66,12 +72,29 @@ HistoryFile::HistoryFile(const std::filesystem::path& file, const std::vector<st
 }
 
 HistoryFile::HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns,
-                         double last_time_us)
+                         double last_time_us, std::optional<long> expected_rows)
     : path_(file), extra_columns_(extra_columns.size()) {
     const std::string content = read_file(file, largest_history);
     if (content.substr(0, content.find('\n')) != header(extra_columns))
         throw IoError(file.string() + ": its columns are not those of this engine; run without --restart");
-    write_file_atomically(file, kept_rows(content, last_time_us));
+    std::istringstream lines(content);
+    std::string line;
+    std::getline(lines, line);
+    const std::ptrdiff_t cells = std::count(line.begin(), line.end(), ',') + 1;
+    std::string kept = line + "\n";
+    while (std::getline(lines, line) && !lines.eof()) {  // at the end of the file: a row without its end
+        const auto time = time_of_row(line, cells);
+        if (!time) break;
+        if (!not_later(*time, last_time_us)) continue;
+        kept += line + "\n";
+        times_.push_back(*time);
+    }
+    if (expected_rows && rows() != *expected_rows)
+        throw IoError(
+            fmt::format("{}: {} intact rows up to t = {} µs, but the run had written {} when it made its "
+                        "checkpoint; restore the file or run without --restart",
+                        file.string(), rows(), last_time_us, *expected_rows));
+    write_file_atomically(file, kept);
     stream_.open(file, std::ios::app);
 }
 
@@ -95,6 +118,11 @@ void HistoryFile::append(const HistoryRow& row) {
     for (const double value : row.extra) line += "," + number(value, "a column of history.csv");
     stream_ << line << '\n' << std::flush;
     if (!stream_) throw IoError(path_.string() + ": a row cannot be written; check the disk's space and permissions");
+    times_.push_back(row.time_us);
+}
+
+long HistoryFile::rows_until(double time_us) const {
+    return std::count_if(times_.begin(), times_.end(), [&](double time) { return not_later(time, time_us); });
 }
 
 }  // namespace endoflow

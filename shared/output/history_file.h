@@ -33,16 +33,22 @@ class HistoryFile {
     /// Starts a new file. Throws IoError.
     HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns);
 
-    /// Continues an existing file after dropping every row later than `last_time_us` and any torn last line.
-    /// Throws IoError when the columns differ.
-    HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns, double last_time_us);
+    /// Continues an existing file: its rows up to `last_time_us` and up to the first torn or damaged one, no others.
+    /// Throws IoError, and leaves the file alone, when the columns differ or these are not `expected_rows` rows.
+    HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns, double last_time_us,
+                std::optional<long> expected_rows = {});
 
     /// Throws IoError when the row cannot be written, SolverError when a value is not finite.
     void append(const HistoryRow& row);
 
+    [[nodiscard]] long rows() const { return static_cast<long>(times_.size()); }
+    /// How many rows are not later than this.
+    [[nodiscard]] long rows_until(double time_us) const;
+
   private:
     std::filesystem::path path_;
     std::size_t extra_columns_;
+    std::vector<double> times_;  // of the rows in the file, us
     std::ofstream stream_;
 };
 

@@ -13,6 +13,7 @@ struct RunDirectory {
     [[nodiscard]] std::filesystem::path shapes() const { return root / "shapes.h5"; }
     [[nodiscard]] std::filesystem::path log() const { return root / "log.txt"; }
     [[nodiscard]] std::filesystem::path checkpoint() const { return root / "checkpoint"; }
+    [[nodiscard]] std::filesystem::path shapes_at_checkpoint() const { return checkpoint() / "shapes.h5"; }
     [[nodiscard]] std::filesystem::path fields() const { return root / "fields"; }
     [[nodiscard]] std::filesystem::path field_index() const { return root / "fields.pvd"; }
     [[nodiscard]] std::filesystem::path earlier() const { return root / "earlier"; }

@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 #include "shared/output/atomic_file.h"
@@ -21,6 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* record_in_checkpoint = "run_record";
+constexpr const char* rows_in_checkpoint = "history_rows";
 
 double wall_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -99,6 +101,7 @@ struct RunOutput::Implementation {
     double wall_before = 0;  // s, of the parts of this run before a restart
     double cpu_before = 0;
     double last_checkpoint = wall_seconds();
+    int shapes_saved = 0;  // in the copy beside the checkpoint
     std::shared_ptr<spdlog::logger> log;
     std::unique_ptr<HistoryFile> history;
     std::unique_ptr<ShapesFile> shapes;
@@ -120,15 +123,48 @@ struct RunOutput::Implementation {
 
     void continue_run() {
         record = parse_record(restart_point->text(record_in_checkpoint), directory.checkpoint().string());
-        if (record["engine"] != engine.name)
+        try {
+            take_over_record();
+        } catch (const Json::exception& failure) {
+            throw IoError(fmt::format("{}: not a complete run record: {}; run without --restart",
+                                      directory.checkpoint().string(), failure.what()));
+        }
+        continue_history();
+        continue_shapes();
+    }
+
+    void take_over_record() {
+        if (record.at("engine") != engine.name)
             throw IoError(fmt::format("{}: was written by the {} engine, not by {}; run without --restart",
                                       directory.root.string(), record["engine"].get<std::string>(), engine.name));
         record["parameters"] = parameters_to_json(parameters);
-        record["restarts"] = record["restarts"].get<int>() + 1;
-        wall_before = record["wall_s"];
-        cpu_before = record["cpu_s"];
-        history = std::make_unique<HistoryFile>(directory.history(), engine.history_columns, restart_point->time_us);
+        record["restarts"] = record.at("restarts").get<int>() + 1;
+        wall_before = record.at("wall_s").get<double>();
+        cpu_before = record.at("cpu_s").get<double>();
+    }
+
+    void continue_history() {
+        std::optional<long> expected_rows;
+        if (restart_point->scalars.contains(rows_in_checkpoint))
+            expected_rows = std::lround(restart_point->scalar(rows_in_checkpoint));
+        history = std::make_unique<HistoryFile>(directory.history(), engine.history_columns, restart_point->time_us,
+                                                expected_rows);
+        record["steps"]["accepted"] = history->rows();
+    }
+
+    /// A run that was killed may leave a shapes.h5 that was being written; the copy beside the checkpoint is whole.
+    void continue_shapes() {
+        if (std::filesystem::exists(directory.shapes_at_checkpoint()))
+            copy_file_atomically(directory.shapes_at_checkpoint(), directory.shapes());
         shapes = std::make_unique<ShapesFile>(directory.shapes(), restart_point->time_us);
+    }
+
+    /// Before the checkpoint itself, so that history and shapes always reach as far as it does.
+    void save_series() {
+        flush_to_disk(directory.history());
+        if (shapes->count() == shapes_saved) return;
+        copy_file_atomically(directory.shapes(), directory.shapes_at_checkpoint());
+        shapes_saved = shapes->count();
     }
 
     [[nodiscard]] double wall() const { return wall_before + wall_seconds() - wall_start; }
@@ -253,7 +289,9 @@ void RunOutput::write_checkpoint(const Checkpoint& checkpoint) {
     if (implementation_->role == OutputRole::observer) return;
     auto& self = *implementation_;
     self.save_record();
+    self.save_series();
     Checkpoint complete = checkpoint;
+    complete.scalars[rows_in_checkpoint] = static_cast<double>(self.history->rows_until(checkpoint.time_us));
     complete.texts[record_in_checkpoint] = self.record.dump();
     write_checkpoint_file(self.directory.checkpoint(), complete);
     self.last_checkpoint = wall_seconds();
