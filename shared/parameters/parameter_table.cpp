@@ -103,7 +103,7 @@ std::vector<ParameterRow> domain_rows() {
             "height of the domain, 0 < z < height"),
         row("domain", "membrane_height", &P::domain, &S::membrane_height, "nm", positive(1e5), "z0",
             "height at which the membrane starts flat and stays attached to the outer wall"),
-        row("domain", "pin_half_width", &P::domain, &S::pin_half_width, "nm", positive(1e4), "δ",
+        row("domain", "pin_half_width", &P::domain, &S::pin_half_width, "nm", {0.01, 1e4}, "δ",
             "half width of the band |z - z0| < δ on r = R where u_z = 0 and the radial traction vanishes"),
         row("domain", "wall_clearance", &P::domain, &S::wall_clearance, "nm", positive(1e4), "",
             "a run stops when the membrane comes nearer than this to the bottom, the top or (away from its rim) the "
@@ -162,7 +162,7 @@ std::vector<ParameterRow> molecule_rows() {
             "surface diffusivity of the fickian law"),
         row("molecules", "mobility", &P::molecules, &S::mobility, "nm^3/µs", positive(1e12), "D_c",
             "mobility of the cahn-hilliard law"),
-        row("molecules", "interface_width", &P::molecules, &S::interface_width, "nm", positive(1e4), "ε_c",
+        row("molecules", "interface_width", &P::molecules, &S::interface_width, "nm", {0.01, 1e4}, "ε_c",
             "width of the patch's edge, the ε of (24); independent of phase_field.epsilon"),
         row("molecules", "normal_diffusivity", &P::molecules, &S::normal_diffusivity, "nm^2/µs", at_least(0, 1e12),
             "D_n", "diffusivity across the layer of (39) (phase-field engine, fickian and advection)"),
@@ -242,7 +242,7 @@ std::vector<ParameterRow> boundary_integral_rows() {
         row("boundary_integral", "mesh_smoothing", &P::boundary_integral, &S::mesh_smoothing, "", positive(1), "",
             "part of the mesh over which the element density is filtered, so that neighbours are similar"),
         row("boundary_integral", "mesh_relaxation_time", &P::boundary_integral, &S::mesh_relaxation_time, "µs",
-            positive(1e3), "", "time in which elements move to where they are wanted"),
+            {1e-5, 1e3}, "", "time in which elements move to where they are wanted"),
         row("boundary_integral", "neck_closed_radius", &P::boundary_integral, &S::neck_closed_radius, "nm",
             at_least(0, 10), "", "the run ends with neck_closed when the neck radius falls below this"),
         row("boundary_integral", "field_spacing", &P::boundary_integral, &S::field_spacing, "nm", {0.1, 1e3}, "",
@@ -256,7 +256,7 @@ std::vector<ParameterRow> time_rows() {
         row("time", "end", &P::time, &S::end, "µs", at_least(0, 1e9), "T", "simulated time"),
         row("time", "tolerance", &P::time, &S::tolerance, "", {1e-12, 0.1}, "",
             "relative accuracy of the time steps where they are error-controlled"),
-        row("time", "initial_step", &P::time, &S::initial_step, "µs", positive(1e3), "", "first time step"),
+        row("time", "initial_step", &P::time, &S::initial_step, "µs", {1e-12, 1e3}, "", "first time step"),
         row("time", "max_step", &P::time, &S::max_step, "µs", positive(1e6), "", "largest time step"),
     };
 }
