@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "phasefield/weak_forms/bending.h"
 #include "phasefield/weak_forms/interface_geometry.h"
 
 namespace endoflow::phasefield {

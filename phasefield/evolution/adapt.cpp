@@ -29,8 +29,8 @@ bool adapt_once(Discretization& d, State& state, const std::vector<PlanePoint>& 
     stretching.prepare_for_coarsening_and_refinement(state.stretching);
     d.mesh->execute_coarsening_and_refinement();
     d.spaces.distribute(d.parameters);
-    state = {carry_over(flow, d.spaces.flow), carry_over(molecules, d.spaces.molecules),
-             carry_over(stretching, d.spaces.stretching)};
+    take_over(state, {carry_over(flow, d.spaces.flow), carry_over(molecules, d.spaces.molecules),
+                      carry_over(stretching, d.spaces.stretching)});
     return true;
 }
 

@@ -26,7 +26,7 @@ StepOutcome PaperScheme::present() const {
 }
 
 StepOutcome PaperScheme::start() {
-    state_ = initial_state(discretization_);
+    take_over(state_, initial_state(discretization_));
     return present();
 }
 
@@ -34,7 +34,7 @@ StepOutcome PaperScheme::load(const std::filesystem::path& directory, const Chec
     control_.nominal = checkpoint.scalar("nominal_step");
     control_.since_doubling = checkpoint.scalar("steps_since_doubling");
     moved_ = checkpoint.scalar("moved");
-    state_ = load_mesh_and_state(directory, discretization_);
+    take_over(state_, load_mesh_and_state(directory, discretization_));
     return present();
 }
 
@@ -47,7 +47,7 @@ void PaperScheme::save(const std::filesystem::path& directory, Checkpoint& check
 
 StepOutcome PaperScheme::attempt(double /*time*/, double tau) {
     const Spaces& spaces = discretization_.spaces;
-    trial_ = advance(discretization_, state_, tau);
+    take_over(trial_, advance(discretization_, state_, tau));
     StepOutcome outcome{diagnose_step(spaces, state_.flow, trial_, discretization_.parameters), {}, {}};
     const double motion = outcome.diagnostics.motion_max;
     if (control_.too_far(motion) || !std::isfinite(outcome.diagnostics.bending_energy))
@@ -58,7 +58,7 @@ StepOutcome PaperScheme::attempt(double /*time*/, double tau) {
 }
 
 void PaperScheme::keep(double /*time*/, double tau, const StepOutcome& outcome) {
-    state_ = std::move(trial_);
+    take_over(state_, std::move(trial_));
     control_.accept(tau, outcome.diagnostics.motion_max);
     moved_ += outcome.diagnostics.motion_max;
 }

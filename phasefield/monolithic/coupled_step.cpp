@@ -35,6 +35,13 @@ unsigned int quadrature_points(const PhaseFieldParameters& p) {
     return static_cast<unsigned int>(std::max({p.degree, p.velocity_degree, p.surface_degree})) + 2;
 }
 
+void take_over(State& state, State other) {
+    state.flow.swap(other.flow);
+    state.molecules.swap(other.molecules);
+    state.stretching.swap(other.stretching);
+    for (const Vector* vector : {&state.flow, &state.molecules, &state.stretching}) vector->update_ghost_values();
+}
+
 OldFields::OldFields(const Spaces& spaces, const Parameters& parameters, const dealii::Quadrature<2>& quadrature)
     : spaces_(&spaces),
       parameters_(parameters),

@@ -25,6 +25,10 @@ struct State {
     Vector flow, molecules, stretching;
 };
 
+/// `state` becomes `other`, ghost values included. Assigning vectors instead would keep the ghosts of an earlier mesh
+/// if the processes own as many unknowns there as now.
+void take_over(State& state, State other);
+
 /// Fields of time level n on one cell, evaluated at the quadrature points of the coupled system.
 class OldFields {
   public:

@@ -39,13 +39,14 @@ struct StepNumbers {
     MoleculeParameters molecules;
 };
 
-inline constexpr double surface_floor = 1e-8;    // [1/nm] added to δ, so that G, c and s are defined everywhere
-inline constexpr double energy_floor = 4e-5;     // [1/nm] f of the energy's weight
-inline constexpr double moment_floor = 4e-5;     // [nm] continues b smoothly where the energy has no weight
-inline constexpr double distance_floor = 2e-8;   // part of (1 − φ²)² that moves ψ far from the layer
-inline constexpr double profile_floor = 1e-5;    // the same for the flux that keeps |∇ψ| = 1
-inline constexpr double alignment_floor = 1e-4;  // the same for λ
-inline constexpr double far_smoothing = 1.02;    // 1/|∇ψ| far from the layer, where ψ solves a Poisson equation
+inline constexpr double surface_floor = 1e-8;        // [1/nm] added to δ, so that G, c and s are defined everywhere
+inline constexpr double energy_floor = 1e-4;         // f of the energy's weight as part of max δ
+inline constexpr double energy_norm = 1.0004489587;  // 1/∫ δ²/(δ + f) dψ
+inline constexpr double moment_floor = 4e-5;         // [nm] continues b smoothly where the energy has no weight
+inline constexpr double distance_floor = 2e-8;       // part of (1 − φ²)² that moves ψ far from the layer
+inline constexpr double profile_floor = 1e-5;        // the same for the flux that keeps |∇ψ| = 1
+inline constexpr double alignment_floor = 1e-4;      // the same for λ
+inline constexpr double far_smoothing = 1.02;        // 1/|∇ψ| far from the layer, where ψ solves a Poisson equation
 inline constexpr double layer_pressure_alignment = 30;
 inline constexpr double pressure_leak = 0.01;
 inline constexpr double gradient_floor = 1e-3;  // of |∇ψ| in the normal
@@ -119,7 +120,7 @@ struct PointGeometry {
 };
 
 /// The weight of the bending energy: δ with its tails cut off, δ²/(δ + f), so that the defects of ψ where normals cross
-/// exert no force. And its two derivatives with respect to ψ.
+/// exert no force, made to integrate to one again. And its two derivatives with respect to ψ.
 template <class Number>
 struct EnergyWeight {
     Number value, first, second;
@@ -131,9 +132,10 @@ EnergyWeight<Number> energy_weight(const LayerProfile<Number>& layer, double eps
     const Number& d = layer.delta;
     const Number slope = (inverse_sqrt2 / epsilon) * (1.0 - layer.phi * layer.phi);  // dφ/dψ
     const Number d1 = layer.delta_slope, d2 = -a * (slope * d + layer.phi * d1);
-    const Number inverse = 1.0 / (d + energy_floor), part = d * inverse, rest = energy_floor * inverse;
+    const double f = energy_floor * 0.75 * inverse_sqrt2 / epsilon;
+    const Number inverse = 1.0 / (d + f), part = d * inverse, rest = f * inverse;
     const Number g1 = part * (part + 2.0 * rest), g2 = 2.0 * rest * rest * inverse;
-    return {d * part, g1 * d1, g2 * d1 * d1 + g1 * d2};
+    return {energy_norm * d * part, energy_norm * g1 * d1, energy_norm * (g2 * d1 * d1 + g1 * d2)};
 }
 
 /// The bending energy as a functional of ψ, the moment b and c whose stationary value over b is E:

@@ -14,14 +14,12 @@ namespace endoflow::phasefield::production {
 namespace {
 
 constexpr std::size_t highest_order = 2;
-constexpr double first_steps = 3;          // before the error can be estimated
-constexpr double safety = 0.85;            // of the step
-constexpr double largest_growth = 2;       // per step
-constexpr double tolerated_excess = 2;     // of the error over its tolerance, beyond which a step is repeated
-constexpr double linear_tolerance = 1e-4;  // of each Newton correction
-constexpr double newton_part = 0.01;       // of the step's tolerance to which Newton's method converges
+constexpr double first_steps = 3;       // before the error can be estimated
+constexpr double safety = 0.85;         // of the step
+constexpr double largest_growth = 2;    // per step
+constexpr double tolerated_excess = 2;  // of the error over its tolerance, beyond which a step is repeated
+constexpr double newton_part = 0.01;    // of the step's tolerance to which Newton's method converges
 constexpr int most_newton_iterations = 8;
-constexpr int fresh_factors = 2;        // iterations with factors of their own; the others use the last ones
 constexpr double smallest_step = 1e-5;  // of the first one
 constexpr double largest_motion = 1.5;  // of the membrane in one step, in units of ε
 
@@ -38,7 +36,7 @@ ProductionScheme::ProductionScheme(const Parameters& parameters, MPI_Comm commun
       mesh_(coarse_mesh(parameters, communicator)),
       space_(*mesh_, field_degrees(parameters.phase_field)),
       pattern_(parameters, model_),
-      system_(communicator, "coupled", linear_tolerance),
+      system_(communicator, "coupled"),
       numbers_{0, parameters.phase_field, parameters.fluid, parameters.molecules},
       nominal_(parameters.time.initial_step) {}
 
@@ -125,6 +123,13 @@ StepOutcome ProductionScheme::start() {
         space_, molecule_density, [&](double r, double) { return c(r); }, solution);
     interpolate(
         space_, membrane_stretch, [](double, double) { return 1.0; }, solution);
+    interpolate(
+        space_, moment,
+        [&](double r, double) {  // of a flat membrane
+            const auto laws = bending_coefficients(model_, c(r));
+            return laws.stiffness * laws.curvature;
+        },
+        solution);
     finish_interpolation(space_, solution);
     solutions_ = {solution};
     solutions_.front().update_ghost_values();
@@ -156,14 +161,13 @@ void ProductionScheme::solve(Vector& solution, const StepHistory& history) {
     std::string changes;
     for (int iteration = 0; iteration < most_newton_iterations; ++iteration) {
         assemble(space_, pattern_, model_, numbers_, history, solution, system_);
-        if (iteration < fresh_factors) system_.forget_factors();
+        system_.forget_factors();
         Vector increment = space_.vector();
         system_.solve(space_, increment);
         const double change = layer_increment(space_, parameters_.phase_field.epsilon, increment, solution);
         solution += increment;
         solution.update_ghost_values();
-        const double rate = change / last;  // Newton's method squares it in the next iteration
-        if (change <= wanted || (iteration > 0 && change * rate * rate <= wanted)) return;
+        if (change <= wanted) return;
         char text[24];
         std::snprintf(text, sizeof text, " %.1e", change);
         changes += text;
@@ -179,6 +183,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     const auto bdf = bdf_coefficients(end, times_, order());
     numbers_.rate = bdf.rate;
     const Vector predicted = predict(end);
+    trial_.reinit(predicted, true);  // assignment alone could keep the ghosts of an earlier mesh
     trial_ = predicted;
     trial_.update_ghost_values();
     predicted.update_ghost_values();

@@ -12,6 +12,7 @@ namespace endoflow::phasefield {
 
 namespace {
 
+constexpr double relative_tolerance = 1e-11;
 constexpr int worthwhile_iterations = 10;  // beyond this a new factorisation is cheaper than the old factors
 constexpr int most_iterations = 30;
 
@@ -24,8 +25,8 @@ void check(PetscErrorCode code, const std::string& name) {
 
 }  // namespace
 
-LinearSystem::LinearSystem(MPI_Comm communicator, std::string name, double tolerance)
-    : communicator_(communicator), name_(std::move(name)), tolerance_(tolerance) {}
+LinearSystem::LinearSystem(MPI_Comm communicator, std::string name)
+    : communicator_(communicator), name_(std::move(name)) {}
 
 LinearSystem::~LinearSystem() {
     destroy();
@@ -51,7 +52,7 @@ void LinearSystem::reinit(const Space& space, const Couplings& couplings) {
     check(KSPSetType(solver_, KSPGMRES), name_);
     check(KSPGMRESSetRestart(solver_, most_iterations), name_);
     check(KSPSetPCSide(solver_, PC_RIGHT), name_);
-    check(KSPSetTolerances(solver_, tolerance_, 1e-300, PETSC_DEFAULT, most_iterations), name_);
+    check(KSPSetTolerances(solver_, relative_tolerance, 1e-300, PETSC_DEFAULT, most_iterations), name_);
     check(KSPSetOperators(solver_, matrix, matrix), name_);
     PC preconditioner;
     check(KSPGetPC(solver_, &preconditioner), name_);

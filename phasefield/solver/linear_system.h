@@ -19,8 +19,7 @@ using Couplings = dealii::Table<2, dealii::DoFTools::Coupling>;
 /// the last factors serve as the preconditioner of GMRES for as long as they serve well.
 class LinearSystem {
   public:
-    /// `tolerance`: relative, of the residual.
-    LinearSystem(MPI_Comm communicator, std::string name, double tolerance = 1e-11);
+    LinearSystem(MPI_Comm communicator, std::string name);
     ~LinearSystem();
     LinearSystem(const LinearSystem&) = delete;
     LinearSystem& operator=(const LinearSystem&) = delete;
@@ -47,7 +46,6 @@ class LinearSystem {
 
     MPI_Comm communicator_;
     std::string name_;
-    double tolerance_;
     dealii::PETScWrappers::MPI::Vector solution_;
     KSP solver_ = nullptr;
     bool factors_valid_ = false;
