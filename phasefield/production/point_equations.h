@@ -47,9 +47,9 @@ inline constexpr double distance_floor = 2e-8;       // part of (1 − φ²)² t
 inline constexpr double profile_floor = 1e-5;        // the same for the flux that keeps |∇ψ| = 1
 inline constexpr double alignment_floor = 1e-4;      // the same for λ
 inline constexpr double far_smoothing = 1.02;        // 1/|∇ψ| far from the layer, where ψ solves a Poisson equation
-inline constexpr double layer_pressure_alignment = 30;
-inline constexpr double pressure_leak = 0.01;
-inline constexpr double gradient_floor = 1e-3;  // of |∇ψ| in the normal
+inline constexpr double layer_pressure_alignment = 30;  // [nm³/(pN µs)] keeps q constant along the normal
+inline constexpr double pressure_leak = 0.01;           // [nm/(pN µs)] ∇·u per q: decides between p and δ q
+inline constexpr double gradient_floor = 1e-3;          // of |∇ψ| in the normal
 
 /// φ, δ, δ' and the rest that only depend on ψ.
 template <class Number>
@@ -146,7 +146,7 @@ EnergyWeight<Number> energy_weight(const LayerProfile<Number>& layer, double eps
 /// normal force G and the force e ∇c, so that the discrete equations obey the energy law.
 template <class Number>
 struct PointBending {
-    Number work, density, concentration_force;  // b/β [1/nm]; ½ b²/β [pN/nm]; e [pN/nm²]
+    Number work, density, concentration_force;  // b (K − C) [pN/nm]; ½ b²/β [pN/nm]; e [pN/nm²]
 };
 
 template <class Number>
