@@ -54,7 +54,8 @@ inline constexpr double gradient_floor = 1e-3;          // of |∇ψ| in the nor
 /// φ, δ, δ' and the rest that only depend on ψ.
 template <class Number>
 struct LayerProfile {
-    Number phi, delta, delta_slope, squared_well;  // φ, δ [1/nm], dδ/dψ [1/nm²], (1 − φ²)²
+    Number phi, phi_slope;                    // φ, dφ/dψ [1/nm]
+    Number delta, delta_slope, squared_well;  // δ [1/nm], dδ/dψ [1/nm²], (1 − φ²)²
 };
 
 template <class Number>
@@ -63,7 +64,7 @@ LayerProfile<Number> layer_profile(const Number& psi, double epsilon) {
     const Number phi = chain(psi, t, (1 - t * t) * inverse_sqrt2 / epsilon);
     const Number well = 1.0 - phi * phi, squared = well * well;
     const Number delta = (0.75 * inverse_sqrt2 / epsilon) * squared;
-    return {phi, delta, (-2 / (inverse_sqrt2 * epsilon)) * phi * delta, squared};
+    return {phi, (inverse_sqrt2 / epsilon) * well, delta, (-2 / (inverse_sqrt2 * epsilon)) * phi * delta, squared};
 }
 
 /// H(ψ) from φ: −½ … ½.
@@ -130,8 +131,7 @@ template <class Number>
 EnergyWeight<Number> energy_weight(const LayerProfile<Number>& layer, double epsilon) {
     const double a = 2 / (inverse_sqrt2 * epsilon);
     const Number& d = layer.delta;
-    const Number slope = (inverse_sqrt2 / epsilon) * (1.0 - layer.phi * layer.phi);  // dφ/dψ
-    const Number d1 = layer.delta_slope, d2 = -a * (slope * d + layer.phi * d1);
+    const Number d1 = layer.delta_slope, d2 = -a * (layer.phi_slope * d + layer.phi * d1);
     const double f = energy_floor * 0.75 * inverse_sqrt2 / epsilon;
     const Number inverse = 1.0 / (d + f), part = d * inverse, rest = f * inverse;
     const Number g1 = part * (part + 2.0 * rest), g2 = 2.0 * rest * rest * inverse;
@@ -157,9 +157,8 @@ PointBending<Number> add_bending(const Fields<Number>& x, const PointGeometry<Nu
     const EnergyWeight<Number> w = energy_weight(p.layer, epsilon);
     const double scale = 1 / (inverse_sqrt2 * epsilon);  // √2/ε
     const Number K = b.value / m.beta, density = 0.5 * K * b.value;
-    const Number slope = (0.5 * scale) * (1.0 - p.layer.phi * p.layer.phi);  // dφ/dψ
     const Number defect = scale * (1.0 - p.squared_gradient);
-    const Number strength = w.value * p.layer.phi, turn = w.first * p.layer.phi + w.value * slope;
+    const Number strength = w.value * p.layer.phi, turn = w.first * p.layer.phi + w.value * p.layer.phi_slope;
     const double smoothing = moment_floor / model.stiffness(0).value;
     row[moment] = {w.value * (K - m.curvature) - strength * defect + w.first * p.squared_gradient,
                    w.value * psi.r + smoothing * b.r, w.value * psi.z + smoothing * b.z};
@@ -169,6 +168,30 @@ PointBending<Number> add_bending(const Fields<Number>& x, const PointGeometry<Nu
                              (w.second * p.squared_gradient - turn * defect) * b.value,
                          w.value * b.r + twist * psi.r, w.value * b.z + twist * psi.z};
     return {b.value * (K - m.curvature), density, w.value * (b.value * m.curvature_c + 0.5 * K * K * m.beta_c)};
+}
+
+/// D_n ∇·(δ n n·∇y): keeps y constant along the normal, the predicted one, so that the term is linear.
+template <class Number>
+void add_alignment(const AtPoint<Number>& y, const PointHistory& past, const Number& diffusivity,
+                   AtPoint<Number>& row) {
+    const Number flux = diffusivity * (past.normal_r * y.r + past.normal_z * y.z);
+    row.r += flux * past.normal_r;
+    row.z += flux * past.normal_z;
+}
+
+template <class Number>
+void add_diffusion(const AtPoint<Number>& y, const Number& diffusivity, AtPoint<Number>& row) {
+    row.r += diffusivity * y.r;
+    row.z += diffusivity * y.z;
+}
+
+/// Multipliers of conditions on the membrane are constant along the normal, and smooth far from the layer.
+template <class Number>
+void extend_multiplier(const AtPoint<Number>& y, const PointGeometry<Number>& p, const PointHistory& past,
+                       double alignment, double leak, AtPoint<Number>& row) {
+    const Number phi2 = p.layer.phi * p.layer.phi;
+    add_alignment(y, past, -alignment * (p.layer.squared_well + alignment_floor), row);
+    add_diffusion(y, -leak * (phi2 * phi2), row);
 }
 
 /// (32), (33): momentum with the forces δ G ∇ψ + e ∇c − ∇·(δ λ P), and volume. The pressure balances the layer's own
@@ -199,11 +222,8 @@ void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Poi
     }
     row[pressure_rest].value = -divergence;
     const auto& q = x[pressure_layer];
-    const Number along = (layer_pressure_alignment * (p.layer.squared_well + alignment_floor)) *
-                         (past.normal_r * q.r + past.normal_z * q.z);
-    const Number phi2 = p.layer.phi * p.layer.phi, leak = step.numerics.tension_leak * phi2 * phi2;
-    row[pressure_layer] = {-p.layer.delta * (divergence + pressure_leak * q.value),
-                           -(along * past.normal_r + leak * q.r), -(along * past.normal_z + leak * q.z)};
+    row[pressure_layer].value = -p.layer.delta * (divergence + pressure_leak * q.value);
+    extend_multiplier(q, p, past, layer_pressure_alignment, step.numerics.tension_leak, row[pressure_layer]);
 }
 
 /// (34): P:∇u = ζ (s − 1) on the average across the layer. λ is kept constant along the normal by the alignment
@@ -217,11 +237,8 @@ void add_inextensibility(const Fields<Number>& x, const PointGeometry<Number>& p
     const Number stretching =
         ur.r + ur.value / r + uz.z -
         (p.normal_r * p.normal_r * ur.r + p.normal_r * p.normal_z * (ur.z + uz.r) + p.normal_z * p.normal_z * uz.z);
-    const Number along = (numerics.tension_alignment * (p.layer.squared_well + alignment_floor)) *
-                         (past.normal_r * lambda.r + past.normal_z * lambda.z);
-    const Number phi2 = p.layer.phi * p.layer.phi, leak = numerics.tension_leak * phi2 * phi2;
-    row[tension_rest] = {p.layer.delta * (stretching - numerics.strain_relaxation * (s - 1.0)),
-                         -(along * past.normal_r + leak * lambda.r), -(along * past.normal_z + leak * lambda.z)};
+    row[tension_rest].value = p.layer.delta * (stretching - numerics.strain_relaxation * (s - 1.0));
+    extend_multiplier(lambda, p, past, numerics.tension_alignment, numerics.tension_leak, row[tension_rest]);
 }
 
 /// (35): δ ( ∂ψ/∂t + u·∇ψ ) = −(mobility) δ G, and |∇ψ| = 1 is kept by a flux along the normal, M ε δ (n·∇ψ − 1) n.
@@ -242,21 +259,6 @@ void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const P
         rate += (length * step.fluid.normal_mobility) * (p.layer.delta + surface_floor) * x[normal_force].value;
     row[distance] = {rate, flux * past.normal_r + far * (far_smoothing * psi.r - past.normal_r),
                      flux * past.normal_z + far * (far_smoothing * psi.z - past.normal_z)};
-}
-
-/// D_n ∇·(δ n n·∇y): keeps y constant along the normal, the predicted one, so that the term is linear.
-template <class Number>
-void add_alignment(const AtPoint<Number>& y, const PointHistory& past, const Number& diffusivity,
-                   AtPoint<Number>& row) {
-    const Number flux = diffusivity * (past.normal_r * y.r + past.normal_z * y.z);
-    row.r += flux * past.normal_r;
-    row.z += flux * past.normal_z;
-}
-
-template <class Number>
-void add_diffusion(const AtPoint<Number>& y, const Number& diffusivity, AtPoint<Number>& row) {
-    row.r += diffusivity * y.r;
-    row.z += diffusivity * y.z;
 }
 
 /// (40), (41), or (39), or (14): δ c is conserved.
