@@ -217,7 +217,7 @@ TEST_CASE("a kill while shapes.h5 is being written loses no shape: the checkpoin
     const auto root = directory.path() / "run";
     const auto shapes_left = [&] { return Hdf5File(root / "shapes.h5", Hdf5File::Mode::read).members("/shapes"); };
     leave_killed_run(root);
-    for (const std::uintmax_t size : {0, 100, 1000, 3000}) {
+    for (const std::uintmax_t size : {0U, 100U, 1000U, 3000U}) {
         std::filesystem::resize_file(root / "shapes.h5", size);
         CHECK(refusal_to_restart(root).empty());
         CHECK(shapes_left() == std::vector<std::string>{"000000"});
@@ -235,7 +235,7 @@ TEST_CASE("a history that lost rows is not continued, and not touched") {
     const auto second_row = whole.find("\n0.5,") + 1;
     const auto damaged = [&](const std::string& text) {
         std::ofstream(file, std::ios::trunc) << text;
-        const std::string message = refusal_to_restart(root);
+        std::string message = refusal_to_restart(root);
         CHECK(content(file) == text);
         return message;
     };
