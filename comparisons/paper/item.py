@@ -9,7 +9,7 @@ BOUNDARY_INTEGRAL, PHASE_FIELD = "boundary-integral", "phase-field"
 NECK_CLOSED = "neck-closed"
 
 #: `--quick`: a layer twice as thick on cells twice as large, and the time (µs) a phase-field run is followed.
-QUICK_LAYER = {"phase_field.epsilon": "2.4", "phase_field.cell_size": "2.5"}
+QUICK_LAYER = {"phase_field.epsilon": "2.4"}
 QUICK_END = 0.5
 
 

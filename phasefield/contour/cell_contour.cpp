@@ -24,7 +24,6 @@ CellContour::CellContour(const ContourFields& fields, unsigned int subdivisions)
       velocity_element_(fields.flow_space->degrees[fields.velocity_r]),
       tension_element_(fields.flow_space->degrees[fields.tension]),
       molecule_element_(fields.molecule_space->degrees[fields.concentration]),
-      moment_element_(fields.flow_space->degrees[fields.moment]),
       flow_values_(fields.flow_space->element.n_dofs_per_cell()),
       molecule_values_(fields.molecule_space->element.n_dofs_per_cell()) {
     for (unsigned int k = 0; k <= subdivisions; ++k)
@@ -38,13 +37,6 @@ CellContour::CellContour(const ContourFields& fields, unsigned int subdivisions)
 
 double CellContour::phi_at(double x, double y) const {
     return value_at(phi_element_, phi_, {x, y});
-}
-
-double CellContour::sharp_tension(const dealii::Point<2>& unit, double c) const {
-    const double tension = fields_.tension_factor * value_at(tension_element_, lambda_, unit);
-    if (fields_.model == nullptr) return tension;
-    return endoflow::phasefield::sharp_tension(tension, value_at(moment_element_, moment_, unit),
-                                               bending_coefficients(*fields_.model, c));
 }
 
 ContourPoint CellContour::point(double x, double y) const {
@@ -63,7 +55,7 @@ ContourPoint CellContour::point(double x, double y) const {
     return {r,
             box_.z0 + y * box_.hz,
             c,
-            sharp_tension(unit, c),
+            fields_.tension_factor * value_at(tension_element_, lambda_, unit),
             -normal_divergence(p, r, 0),
             value_at(velocity_element_, u_r_, unit),
             value_at(velocity_element_, u_z_, unit)};
@@ -127,7 +119,6 @@ void CellContour::add_segments(const dealii::DoFHandler<2>::active_cell_iterator
     component_values(*fields_.flow_space, fields_.velocity_r, flow_values_, u_r_);
     component_values(*fields_.flow_space, fields_.velocity_z, flow_values_, u_z_);
     component_values(*fields_.flow_space, fields_.tension, flow_values_, lambda_);
-    if (fields_.model != nullptr) component_values(*fields_.flow_space, fields_.moment, flow_values_, moment_);
     component_values(*fields_.molecule_space, fields_.concentration, molecule_values_, c_);
     for (unsigned int k = 0; k < subdivisions_; ++k)
         for (unsigned int i = 0; i < subdivisions_; ++i) add_square(i, k, segments);

@@ -5,7 +5,6 @@
 #include "phasefield/contour/chain.h"
 #include "phasefield/discretization/scalar_basis.h"
 #include "phasefield/discretization/space.h"
-#include "shared/model/bending_model.h"
 
 namespace endoflow::phasefield {
 
@@ -15,12 +14,10 @@ struct ContourFields {
     const Space* flow_space;
     const Vector* flow;
     unsigned int level_set, velocity_r, velocity_z, tension;
-    double tension_factor;  // sharp tension = factor × tension,
+    double tension_factor;  // sharp tension = factor × tension
     const Space* molecule_space;
     const Vector* molecules;
     unsigned int concentration;
-    unsigned int moment = 0;              // or, if there is a model, sharp_tension() with this component
-    const BendingModel* model = nullptr;  // of the flow space as the moment
 };
 
 /// The pieces of the level set inside single cells: marching squares on a lattice of `subdivisions`² squares per cell,
@@ -36,18 +33,17 @@ class CellContour {
         double x0, y0, x1, y1;  // unit coordinates
     };
     [[nodiscard]] double phi_at(double x, double y) const;
-    [[nodiscard]] double sharp_tension(const dealii::Point<2>& unit, double c) const;
     [[nodiscard]] ContourPoint root(const Edge& edge) const;
     [[nodiscard]] ContourPoint point(double x, double y) const;
     void add_square(unsigned int i, unsigned int k, std::vector<ContourSegment>& segments) const;
 
     ContourFields fields_;
     unsigned int subdivisions_;
-    dealii::FE_Q<2> phi_element_, velocity_element_, tension_element_, molecule_element_, moment_element_;
+    dealii::FE_Q<2> phi_element_, velocity_element_, tension_element_, molecule_element_;
     std::vector<std::vector<double>> lattice_shapes_;
     CellBox box_{};
     dealii::Vector<double> flow_values_, molecule_values_;
-    std::vector<double> phi_, u_r_, u_z_, lambda_, moment_, c_, lattice_;
+    std::vector<double> phi_, u_r_, u_z_, lambda_, c_, lattice_;
 };
 
 }  // namespace endoflow::phasefield

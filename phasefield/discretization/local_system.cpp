@@ -88,11 +88,17 @@ void LocalSystem::linear(unsigned int test, Op test_op, unsigned int trial, Op t
     residual(test, test_op, product_);
 }
 
-void LocalSystem::write(dealii::FullMatrix<double>& jacobian, dealii::Vector<double>& right_hand_side) const {
-    jacobian = 0;
+void LocalSystem::write_residual(dealii::Vector<double>& right_hand_side) const {
     for (unsigned int test = 0; test < n_components_; ++test) {
         const auto& rows = space_->local[test];
         for (std::size_t i = 0; i < rows.size(); ++i) right_hand_side(rows[i]) = -residuals_[test][i];
+    }
+}
+
+void LocalSystem::write_jacobian(dealii::FullMatrix<double>& jacobian) const {
+    jacobian = 0;
+    for (unsigned int test = 0; test < n_components_; ++test) {
+        const auto& rows = space_->local[test];
         for (unsigned int trial = 0; trial < n_components_; ++trial) {
             if (!used_[test * n_components_ + trial]) continue;
             const auto& columns = space_->local[trial];

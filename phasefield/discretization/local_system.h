@@ -41,8 +41,13 @@ class LocalSystem {
     [[nodiscard]] const ScalarBasis& basis(unsigned int component) const { return *bases_[component]; }
     [[nodiscard]] const CellBox& box() const { return box_; }
 
-    /// Copies J and −R into the cell numbering of the space.
-    void write(dealii::FullMatrix<double>& jacobian, dealii::Vector<double>& right_hand_side) const;
+    /// Copy J and −R into the cell numbering of the space.
+    void write(dealii::FullMatrix<double>& jacobian, dealii::Vector<double>& right_hand_side) const {
+        write_jacobian(jacobian);
+        write_residual(right_hand_side);
+    }
+    void write_jacobian(dealii::FullMatrix<double>& jacobian) const;
+    void write_residual(dealii::Vector<double>& right_hand_side) const;
 
   private:
     [[nodiscard]] const std::vector<double>& shapes(unsigned int component, Op op) const;

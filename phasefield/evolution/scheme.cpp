@@ -1,7 +1,5 @@
 #include "phasefield/evolution/scheme.h"
 
-#include <algorithm>
-
 #include "phasefield/evolution/paper_scheme.h"
 #include "phasefield/production/production_scheme.h"
 
@@ -10,11 +8,11 @@ namespace endoflow::phasefield {
 namespace {
 
 /// Cells per layer that resolve the scheme's fields. Scheme `paper` has to resolve fourth derivatives of the tanh
-/// profile; the production scheme the distance, which is smooth, and the edge of the patch of molecules.
+/// profile; the production scheme the distance, which is smooth (it refines the patch's edge by itself).
 double chosen_cell_size(const Parameters& p) {
-    constexpr double paper_ratio = 1.25 / 1.2, production_ratio = 4.0 / 3;
+    constexpr double paper_ratio = 1.25 / 1.2, production_ratio = 1;
     if (p.phase_field.scheme == PhaseFieldScheme::paper) return paper_ratio * p.phase_field.epsilon;
-    return production_ratio * std::min(p.phase_field.epsilon, p.molecules.interface_width);
+    return production_ratio * p.phase_field.epsilon;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "phasefield/contour/contour.h"
@@ -44,6 +45,10 @@ class Scheme {
     /// Adapts the mesh to the membrane if it has moved far enough.
     virtual void follow(const MembraneCurve& curve) = 0;
     [[nodiscard]] virtual LayerIntegrals integrate() const = 0;
+    /// Whether contour_at() and write_fields() know the state at any time of the last step; otherwise steps end there.
+    [[nodiscard]] virtual bool interpolates() const { return false; }
+    /// The membrane at a time [µs] within the last step, of schemes that interpolate.
+    [[nodiscard]] virtual Contour contour_at(double /*time*/) const { throw std::logic_error("no interpolation"); }
     virtual void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
                               double time) const = 0;
     [[nodiscard]] virtual double unknowns() const = 0;

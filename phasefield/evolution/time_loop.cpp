@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "phasefield/evolution/clearance.h"
 #include "phasefield/evolution/history.h"
@@ -11,6 +12,12 @@
 #include "shared/support/interruption.h"
 
 namespace endoflow::phasefield {
+
+namespace {
+
+constexpr int event_iterations = 4;  // of regula falsi within a step
+
+}  // namespace
 
 TimeLoop::TimeLoop(const Parameters& parameters, RunOutput& output, MPI_Comm communicator)
     : parameters_(parameters),
@@ -29,8 +36,8 @@ void TimeLoop::start_fresh() {
     contour_ = outcome.contour;
     last_energy_ = outcome.diagnostics.bending_energy;
     record(0, outcome.diagnostics);
-    write_shape();
-    if (parameters_.output.field_interval > 0) write_fields();
+    write_shape(0, contour_.curve);
+    if (parameters_.output.field_interval > 0) write_fields(0);
 }
 
 ExitReason TimeLoop::run() {
@@ -103,12 +110,27 @@ void TimeLoop::watch_neck(double tau) {
     const auto before = neck_radius_;
     neck_radius_ = observables_.neck ? std::optional(observables_.neck->radius) : std::nullopt;
     if (budding_time_ || !neck_radius_ || *neck_radius_ >= budding_neck_radius) return;
-    const double part = before ? (*before - budding_neck_radius) / (*before - *neck_radius_) : 1;
-    budding_time_ = time_ - (1 - part) * tau;
+    Observables at_event = observables_;
+    budding_time_ = before ? time_of_budding(*before, tau, at_event) : time_;
     output_.record_event("budding", *budding_time_,
-                         {{"bud_diameter_nm", observables_.neck->lateral_diameter},
-                          {"membrane_area_nm2", observables_.membrane_area},
-                          {"bud_height_nm", observables_.bud_height}});
+                         {{"bud_diameter_nm", at_event.neck->lateral_diameter},
+                          {"membrane_area_nm2", at_event.membrane_area},
+                          {"bud_height_nm", at_event.bud_height}});
+}
+
+double TimeLoop::time_of_budding(double before, double tau, Observables& at_event) const {
+    double low = time_ - tau, above = before, high = time_, below = *neck_radius_;
+    const auto crossing = [&] { return low + (high - low) * (above - budding_neck_radius) / (above - below); };
+    for (int k = 0; scheme_->interpolates() && k < event_iterations; ++k) {
+        const double time = crossing();
+        const Observables middle = measure(scheme_->contour_at(time).curve, model_);
+        if (!middle.neck) break;
+        at_event = middle;
+        const double radius = middle.neck->radius;
+        (radius < budding_neck_radius ? high : low) = time;
+        (radius < budding_neck_radius ? below : above) = radius;
+    }
+    return crossing();
 }
 
 void TimeLoop::check_clearance() const {
@@ -116,28 +138,37 @@ void TimeLoop::check_clearance() const {
 }
 
 double TimeLoop::next_deadline() const {
-    double deadline = std::min(parameters_.time.end, shapes_written_ * parameters_.output.shape_interval);
-    if (parameters_.output.field_interval > 0)
-        deadline = std::min(deadline, static_cast<double>(field_times_.size()) * parameters_.output.field_interval);
-    return deadline;
+    if (scheme_->interpolates()) return parameters_.time.end;
+    return std::min({parameters_.time.end, next_shape(), next_fields()});
 }
 
-void TimeLoop::write_shape() {
-    output_.write_shape(time_, contour_.curve);
+double TimeLoop::next_shape() const {
+    return shapes_written_ * parameters_.output.shape_interval;
+}
+
+double TimeLoop::next_fields() const {
+    const double interval = parameters_.output.field_interval;
+    return interval > 0 ? static_cast<double>(field_times_.size()) * interval : std::numeric_limits<double>::infinity();
+}
+
+void TimeLoop::write_shape(double time, const MembraneCurve& curve) {
+    output_.write_shape(time, curve);
     shapes_written_ += 1;
 }
 
 void TimeLoop::write_due_output() {
-    const auto reached = [this](double time) { return time_ >= time * (1 - 1e-12); };
-    const bool end = reached(parameters_.time.end);
-    if (end || reached(shapes_written_ * parameters_.output.shape_interval)) write_shape();
-    const double interval = parameters_.output.field_interval;
-    if (interval > 0 && (end || reached(static_cast<double>(field_times_.size()) * interval))) write_fields();
+    const auto now = [this](double time) { return std::abs(time - time_) <= 1e-12 * time_; };
+    while (next_shape() < time_ && !now(next_shape()))
+        write_shape(next_shape(), scheme_->contour_at(next_shape()).curve);
+    while (next_fields() < time_ && !now(next_fields())) write_fields(next_fields());
+    const bool end = time_ >= parameters_.time.end * (1 - 1e-12);
+    if (end || now(next_shape())) write_shape(time_, contour_.curve);
+    if ((end && parameters_.output.field_interval > 0) || now(next_fields())) write_fields(time_);
 }
 
-void TimeLoop::write_fields() {
+void TimeLoop::write_fields(double time) {
     const PhaseTimer timer(output_, "field output");
-    scheme_->write_fields(output_.directory(), field_times_, time_);
+    scheme_->write_fields(output_.directory(), field_times_, time);
 }
 
 bool TimeLoop::anywhere(bool here) const {

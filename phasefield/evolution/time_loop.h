@@ -24,12 +24,16 @@ class TimeLoop {
     void keep(const StepOutcome& outcome, double tau);
     void record(double tau, const StepDiagnostics& diagnostics);
     void watch_neck(double tau);
+    /// When the neck passed budding_neck_radius within the last step, and the observables then.
+    double time_of_budding(double before, double tau, Observables& at_event) const;
     void check_clearance() const;
     void write_due_output();
-    void write_shape();
-    void write_fields();
+    void write_shape(double time, const MembraneCurve& curve);
+    void write_fields(double time);
     void checkpoint();
     [[nodiscard]] double next_deadline() const;
+    [[nodiscard]] double next_shape() const;
+    [[nodiscard]] double next_fields() const;
     [[nodiscard]] bool anywhere(bool here) const;
     [[nodiscard]] std::optional<ExitReason> reason_to_stop();
 

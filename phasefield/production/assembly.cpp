@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace endoflow::phasefield::production {
 
@@ -20,13 +21,16 @@ const Number& feature(const AtPoint<Number>& at, unsigned int operation) {
     return operation == 0 ? at.value : operation == 1 ? at.r : at.z;
 }
 
-Fields<FeatureDual> seeded(const std::array<std::array<double, 3>, n_fields>& values) {
-    Fields<FeatureDual> x;
+using PointValues = std::array<std::array<double, 3>, n_fields>;
+
+template <class Number>
+Fields<Number> fields_from(const PointValues& values) {
+    Fields<Number> x;
     for (unsigned int f = 0; f < n_fields; ++f) {
-        FeatureDual* parts[3] = {&x[f].value, &x[f].r, &x[f].z};
+        Number* parts[3] = {&x[f].value, &x[f].r, &x[f].z};
         for (unsigned int o = 0; o < 3; ++o) {
-            parts[o]->value = values[f][o];
-            parts[o]->partial[3 * f + o] = 1;
+            *parts[o] = values[f][o];
+            if constexpr (std::is_same_v<Number, FeatureDual>) parts[o]->partial[3 * f + o] = 1;
         }
     }
     return x;
@@ -100,12 +104,12 @@ class HistoryFields {
 
 EquationPattern::EquationPattern(const Parameters& p, const BendingModel& model) : couplings(n_fields, n_fields) {
     // Values without special meaning: everything that can depend on something does.
-    std::array<std::array<double, 3>, n_fields> values;
+    PointValues values;
     for (unsigned int f = 0; f < n_fields; ++f) values[f] = {0.31 + 0.05 * f, 0.27 + 0.03 * f, 0.41 - 0.02 * f};
     PointHistory past;
     past.normal_r = 0.6;
     past.normal_z = 0.8;
-    const auto rows = point_equations(seeded(values), 3.0, past, {1.0, p.phase_field, p.fluid, p.molecules}, model);
+    const auto rows = point_equations(fields_from<FeatureDual>(values), 3.0, past, {1.0, p.phase_field, p.fluid, p.molecules}, model);
     couplings.fill(dealii::DoFTools::none);
     for (unsigned int f = 0; f < n_fields; ++f) {
         couplings(f, f) = dealii::DoFTools::always;
@@ -122,20 +126,24 @@ unsigned int gauss_points(const PhaseFieldParameters& p) {
     return static_cast<unsigned int>(std::max({p.degree, p.velocity_degree, p.surface_degree})) + 2;
 }
 
-void assemble(const Space& space, const EquationPattern& pattern, const BendingModel& model, const StepNumbers& step,
-              const StepHistory& history, const Vector& iterate, LinearSystem& system) {
+namespace {
+
+/// The loop over cells: residual, and the Jacobian when Number carries derivatives.
+template <class Number>
+void assemble_cells(const Space& space, const EquationPattern& pattern, const BendingModel& model,
+                    const StepNumbers& step, const StepHistory& history, const Vector& iterate, LinearSystem& system) {
+    constexpr bool with_jacobian = std::is_same_v<Number, FeatureDual>;
     const dealii::QGauss<2> quadrature(gauss_points(step.numerics));
     LocalSystem local(space, quadrature);
     HistoryFields past(space, quadrature, step, history);
     const unsigned int n = space.element.n_dofs_per_cell();
-    dealii::FullMatrix<double> cell_matrix(n, n);
+    dealii::FullMatrix<double> cell_matrix(with_jacobian ? n : 0, with_jacobian ? n : 0);
     dealii::Vector<double> cell_rhs(n), cell_values(n);
     std::vector<dealii::types::global_dof_index> indices(n);
     std::vector<PointHistory> points(quadrature.size());
     std::vector<Coefficients> residual(n_features, Coefficients(quadrature.size())),
-        jacobian(pattern.entries.size(), Coefficients(quadrature.size()));
+        jacobian(with_jacobian ? pattern.entries.size() : 0, Coefficients(quadrature.size()));
 
-    system.start();
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         const CellBox box = cell_box(cell);
@@ -146,25 +154,48 @@ void assemble(const Space& space, const EquationPattern& pattern, const BendingM
         for (unsigned int q = 0; q < quadrature.size(); ++q) {
             const double r = box.r0 + box.hr * quadrature.point(q)[0];
             const double measure = quadrature.weight(q) * box.hr * box.hz * r;
-            std::array<std::array<double, 3>, n_fields> values;
+            PointValues values;
             for (unsigned int f = 0; f < n_fields; ++f)
                 values[f] = {local.field(f).value[q], local.field(f).r[q], local.field(f).z[q]};
-            const auto rows = point_equations(seeded(values), r, points[q], step, model);
-            for (unsigned int k = 0; k < n_features; ++k) residual[k][q] = measure * feature(rows[k / 3], k % 3).value;
-            for (std::size_t k = 0; k < pattern.entries.size(); ++k) {
-                const auto [row, column] = pattern.entries[k];
-                jacobian[k][q] = measure * feature(rows[row / 3], row % 3).partial[column];
-            }
+            const auto rows = point_equations(fields_from<Number>(values), r, points[q], step, model);
+            for (unsigned int k = 0; k < n_features; ++k)
+                residual[k][q] = measure * value_of(feature(rows[k / 3], k % 3));
+            if constexpr (with_jacobian)
+                for (std::size_t k = 0; k < pattern.entries.size(); ++k) {
+                    const auto [row, column] = pattern.entries[k];
+                    jacobian[k][q] = measure * feature(rows[row / 3], row % 3).partial[column];
+                }
         }
         for (unsigned int k = 0; k < n_features; ++k) local.residual(k / 3, operations[k % 3], residual[k]);
-        for (std::size_t k = 0; k < pattern.entries.size(); ++k) {
-            const auto [row, column] = pattern.entries[k];
-            local.jacobian(row / 3, operations[row % 3], column / 3, operations[column % 3], jacobian[k]);
+        if constexpr (with_jacobian) {
+            for (std::size_t k = 0; k < pattern.entries.size(); ++k) {
+                const auto [row, column] = pattern.entries[k];
+                local.jacobian(row / 3, operations[row % 3], column / 3, operations[column % 3], jacobian[k]);
+            }
+            local.write_jacobian(cell_matrix);
         }
-        local.write(cell_matrix, cell_rhs);
-        space.constraints.distribute_local_to_global(cell_matrix, cell_rhs, indices, system.matrix,
-                                                     system.right_hand_side);
+        local.write_residual(cell_rhs);
+        if constexpr (with_jacobian)
+            space.constraints.distribute_local_to_global(cell_matrix, cell_rhs, indices, system.matrix,
+                                                         system.right_hand_side);
+        else
+            space.constraints.distribute_local_to_global(cell_rhs, indices, system.right_hand_side);
     }
+}
+
+}  // namespace
+
+void assemble(const Space& space, const EquationPattern& pattern, const BendingModel& model, const StepNumbers& step,
+              const StepHistory& history, const Vector& iterate, LinearSystem& system) {
+    system.start();
+    assemble_cells<FeatureDual>(space, pattern, model, step, history, iterate, system);
+}
+
+void assemble_residual(const Space& space, const EquationPattern& pattern, const BendingModel& model,
+                       const StepNumbers& step, const StepHistory& history, const Vector& iterate,
+                       LinearSystem& system) {
+    system.right_hand_side = 0;
+    assemble_cells<double>(space, pattern, model, step, history, iterate, system);
 }
 
 }  // namespace endoflow::phasefield::production

@@ -31,6 +31,11 @@ class EquationPattern {
 void assemble(const Space& space, const EquationPattern& pattern, const BendingModel& model, const StepNumbers& step,
               const StepHistory& history, const Vector& iterate, LinearSystem& system);
 
+/// −residual alone; the Jacobian stays what it was.
+void assemble_residual(const Space& space, const EquationPattern& pattern, const BendingModel& model,
+                       const StepNumbers& step, const StepHistory& history, const Vector& iterate,
+                       LinearSystem& system);
+
 /// Gauss points per direction.
 unsigned int gauss_points(const PhaseFieldParameters& parameters);
 

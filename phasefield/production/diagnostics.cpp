@@ -58,7 +58,7 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
         local.start(box, values);
         const auto &old_psi = old_distance.on(cell, box, before), &guess = predicted_distance.on(cell, box, predicted);
         const auto &ur = local.field(velocity_r), &uz = local.field(velocity_z), &psi = local.field(distance),
-                   &lambda = local.field(tension_rest), &c = local.field(molecule_density),
+                   &lambda = local.field(tension), &c = local.field(molecule_density),
                    &s = local.field(membrane_stretch), &b = local.field(moment), &g = local.field(normal_force);
         for (unsigned int q = 0; q < quadrature.size(); ++q) {
             const double r = box.r0 + box.hr * quadrature.point(q)[0];

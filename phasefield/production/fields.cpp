@@ -23,8 +23,8 @@ void close_constraints(Space& space, const Parameters& p) {
         if (fixed && !space.constraints.is_constrained(index)) space.constraints.add_line(index);
     });
     if (!flow)
-        switch_off(space, {velocity_r, velocity_z, pressure_rest, pressure_layer, tension_rest, membrane_stretch});
-    if (flow && !p.membrane.inextensible) switch_off(space, {tension_rest});
+        switch_off(space, {velocity_r, velocity_z, pressure, pressure_layer, tension, membrane_stretch});
+    if (flow && !p.membrane.inextensible) switch_off(space, {tension});
     space.constraints.close();
 }
 

@@ -10,9 +10,9 @@ namespace endoflow::phasefield::production {
 enum Field : unsigned int {
     velocity_r,
     velocity_z,
-    pressure_rest,       // p without the layer's own part, see point_equations.h [pN/nm²]
-    pressure_layer,      // the layer's own pressure per δ [pN/nm]
-    tension_rest,        // tension less b (K − C), see sharp_tension() [pN/nm]
+    pressure,            // p without the layer's own part δ q [pN/nm²]
+    pressure_layer,      // q [pN/nm]
+    tension,             // λ [pN/nm]
     distance,            // ψ [nm], φ = tanh(ψ/(√2 ε))
     normal_force,        // G, the variation of the energy per area, δ G = δE/δψ [pN/nm²]
     moment,              // b = β K [pN]

@@ -44,11 +44,13 @@ inline constexpr double energy_floor = 1e-4;         // f of the energy's weight
 inline constexpr double energy_norm = 1.0004489587;  // 1/∫ δ²/(δ + f) dψ
 inline constexpr double moment_floor = 4e-5;         // [nm] continues b smoothly where the energy has no weight
 inline constexpr double distance_floor = 2e-8;       // part of (1 − φ²)² that moves ψ far from the layer
+inline constexpr double force_alignment = 100;       // [ε²] keeps G constant along the normal
 inline constexpr double profile_floor = 1e-5;        // the same for the flux that keeps |∇ψ| = 1
 inline constexpr double alignment_floor = 1e-4;      // the same for λ
 inline constexpr double far_smoothing = 1.02;        // 1/|∇ψ| far from the layer, where ψ solves a Poisson equation
 inline constexpr double layer_pressure_alignment = 30;  // [nm³/(pN µs)] keeps q constant along the normal
 inline constexpr double pressure_leak = 0.01;           // [nm/(pN µs)] ∇·u per q: decides between p and δ q
+inline constexpr double molecule_leak = 1e-6;           // [1/nm] of the normal diffusivity: defines c far from the layer
 inline constexpr double gradient_floor = 1e-3;          // of |∇ψ| in the normal
 
 /// φ, δ, δ' and the rest that only depend on ψ.
@@ -117,7 +119,7 @@ Number layer_viscosity(const Number& phi, const FluidParameters& fluid, Viscosit
 template <class Number>
 struct PointGeometry {
     LayerProfile<Number> layer;
-    Number normal_r, normal_z, squared_gradient;  // n = ∇ψ/|∇ψ|; |∇ψ|²
+    Number normal_r, normal_z, squared_gradient, inverse_gradient;  // n = ∇ψ/|∇ψ|; |∇ψ|²; 1/|∇ψ|
 };
 
 /// The weight of the bending energy: δ with its tails cut off, δ²/(δ + f), so that the defects of ψ where normals cross
@@ -138,20 +140,27 @@ EnergyWeight<Number> energy_weight(const LayerProfile<Number>& layer, double eps
     return {energy_norm * d * part, energy_norm * g1 * d1, energy_norm * (g2 * d1 * d1 + g1 * d2)};
 }
 
+/// D_n ∇·(δ n n·∇y): keeps y constant along the normal, the predicted one, so that the term is linear.
+template <class Number>
+void add_alignment(const AtPoint<Number>& y, const PointHistory& past, const Number& diffusivity,
+                   AtPoint<Number>& row) {
+    const Number flux = diffusivity * (past.normal_r * y.r + past.normal_z * y.z);
+    row.r += flux * past.normal_r;
+    row.z += flux * past.normal_z;
+}
+
 /// The bending energy as a functional of ψ, the moment b and c whose stationary value over b is E:
 ///
 ///   E = ∫ w b h + w (b C − b²/(2 β)) dx,   h = Δψ + √2 φ (1 − |∇ψ|²)/ε,   w the weight above,
 ///
 /// the Laplacian of ψ integrated by parts. Its derivatives with respect to b, ψ and c are the rows of b and of the
-/// normal force G and the force e ∇c, so that the discrete equations obey the energy law.
+/// normal force G and the force e ∇c, so that the discrete equations obey the energy law. G is kept constant along the
+/// normal: what varies there is the force that keeps the profile, which the profile's relaxation takes over. Acting on
+/// the fluid it would drive a flow within the layer that the relaxation undoes all the time.
+/// Returns e [pN/nm²].
 template <class Number>
-struct PointBending {
-    Number work, density, concentration_force;  // b (K − C) [pN/nm]; ½ b²/β [pN/nm]; e [pN/nm²]
-};
-
-template <class Number>
-PointBending<Number> add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const BendingModel& model,
-                                 double epsilon, Fields<Number>& row) {
+Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const BendingModel& model,
+                   double epsilon, const PointHistory& past, Fields<Number>& row) {
     const auto &psi = x[distance], &b = x[moment];
     const Stiffness<Number> m = stiffness_of(x[molecule_density].value, model);
     const EnergyWeight<Number> w = energy_weight(p.layer, epsilon);
@@ -167,16 +176,9 @@ PointBending<Number> add_bending(const Fields<Number>& x, const PointGeometry<Nu
                              w.first * (psi.r * b.r + psi.z * b.z - m.curvature * b.value + density) +
                              (w.second * p.squared_gradient - turn * defect) * b.value,
                          w.value * b.r + twist * psi.r, w.value * b.z + twist * psi.z};
-    return {b.value * (K - m.curvature), density, w.value * (b.value * m.curvature_c + 0.5 * K * K * m.beta_c)};
-}
-
-/// D_n ∇·(δ n n·∇y): keeps y constant along the normal, the predicted one, so that the term is linear.
-template <class Number>
-void add_alignment(const AtPoint<Number>& y, const PointHistory& past, const Number& diffusivity,
-                   AtPoint<Number>& row) {
-    const Number flux = diffusivity * (past.normal_r * y.r + past.normal_z * y.z);
-    row.r += flux * past.normal_r;
-    row.z += flux * past.normal_z;
+    add_alignment(x[normal_force], past, force_alignment * epsilon * epsilon * (p.layer.delta + surface_floor),
+                  row[normal_force]);
+    return w.value * (b.value * m.curvature_c + 0.5 * K * K * m.beta_c);
 }
 
 template <class Number>
@@ -194,33 +196,29 @@ void extend_multiplier(const AtPoint<Number>& y, const PointGeometry<Number>& p,
     add_diffusion(y, -leak * (phi2 * phi2), row);
 }
 
-/// (32), (33): momentum with the forces δ G ∇ψ + e ∇c − ∇·(δ λ P), and volume. The pressure balances the layer's own
-/// stress δ (½ β K² + ∇ψ·∇b), and the tension jumps by b h at the patch's edge; both are taken out of the unknowns, so
-/// that what is left is smooth. What is left of the pressure in the layer is δ q with q constant along the normal, the
-/// multiplier of ∫δ ∇·u across the layer: p alone, continuous and quadratic, cannot follow δ on cells as wide as the
-/// layer, and the rest would drive a spurious flow.
+/// (32), (33): momentum with the forces δ G ∇ψ + e ∇c − ∇·(δ λ P), and volume. The pressure in the layer is p + δ q,
+/// q constant along the normal the multiplier of ∫δ ∇·u across the layer: p alone, continuous and quadratic, cannot
+/// follow δ on cells as wide as the layer, and the rest would drive a spurious flow.
 template <class Number>
-void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const PointBending<Number>& bending, double r,
-              const PointHistory& past, const StepNumbers& step, Fields<Number>& row) {
+void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Number& e, double r, const PointHistory& past,
+              const StepNumbers& step, Fields<Number>& row) {
     const auto &ur = x[velocity_r], &uz = x[velocity_z], &psi = x[distance], &c = x[molecule_density];
     const Number g = (p.layer.delta + surface_floor) * x[normal_force].value;
-    const Number& e = bending.concentration_force;
     const Number nu = layer_viscosity(p.layer.phi, step.fluid, step.numerics.viscosity_mean);
     const Number hoop = ur.value / r, divergence = ur.r + hoop + uz.z;
-    const Number pressure = x[pressure_rest].value + p.layer.delta * (x[pressure_layer].value + bending.density +
-                                                                      (psi.r * x[moment].r + psi.z * x[moment].z));
-    const Number tension = p.layer.delta * (x[tension_rest].value + bending.work);
-    const Number shear = nu * (ur.z + uz.r) - tension * p.normal_r * p.normal_z;
-    row[velocity_r] = {(2.0 * nu * hoop - pressure + tension) / r - g * psi.r - e * c.r,
-                       2.0 * nu * ur.r - pressure + tension * (1.0 - p.normal_r * p.normal_r), shear};
+    const Number isotropic = x[pressure].value + p.layer.delta * x[pressure_layer].value;
+    const Number stretch = p.layer.delta * x[tension].value;
+    const Number shear = nu * (ur.z + uz.r) - stretch * p.normal_r * p.normal_z;
+    row[velocity_r] = {(2.0 * nu * hoop - isotropic + stretch) / r - g * psi.r - e * c.r,
+                       2.0 * nu * ur.r - isotropic + stretch * (1.0 - p.normal_r * p.normal_r), shear};
     row[velocity_z] = {-g * psi.z - e * c.z, shear,
-                       2.0 * nu * uz.z - pressure + tension * (1.0 - p.normal_z * p.normal_z)};
+                       2.0 * nu * uz.z - isotropic + stretch * (1.0 - p.normal_z * p.normal_z)};
     if (step.fluid.inertia) {
         const double rho = step.fluid.density;
         row[velocity_r].value += rho * (step.rate * ur.value + past.velocity_r + ur.value * ur.r + uz.value * ur.z);
         row[velocity_z].value += rho * (step.rate * uz.value + past.velocity_z + ur.value * uz.r + uz.value * uz.z);
     }
-    row[pressure_rest].value = -divergence;
+    row[pressure].value = -divergence;
     const auto& q = x[pressure_layer];
     row[pressure_layer].value = -p.layer.delta * (divergence + pressure_leak * q.value);
     extend_multiplier(q, p, past, layer_pressure_alignment, step.numerics.tension_leak, row[pressure_layer]);
@@ -232,13 +230,13 @@ void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Poi
 template <class Number>
 void add_inextensibility(const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past, double r,
                          const PhaseFieldParameters& numerics, Fields<Number>& row) {
-    const auto &ur = x[velocity_r], &uz = x[velocity_z], &lambda = x[tension_rest];
+    const auto &ur = x[velocity_r], &uz = x[velocity_z], &lambda = x[tension];
     const Number& s = x[membrane_stretch].value;
     const Number stretching =
         ur.r + ur.value / r + uz.z -
         (p.normal_r * p.normal_r * ur.r + p.normal_r * p.normal_z * (ur.z + uz.r) + p.normal_z * p.normal_z * uz.z);
-    row[tension_rest].value = p.layer.delta * (stretching - numerics.strain_relaxation * (s - 1.0));
-    extend_multiplier(lambda, p, past, numerics.tension_alignment, numerics.tension_leak, row[tension_rest]);
+    row[tension].value = p.layer.delta * (stretching - numerics.strain_relaxation * (s - 1.0));
+    extend_multiplier(lambda, p, past, numerics.tension_alignment, numerics.tension_leak, row[tension]);
 }
 
 /// (35): δ ( ∂ψ/∂t + u·∇ψ ) = −(mobility) δ G, and |∇ψ| = 1 is kept by a flux along the normal, M ε δ (n·∇ψ − 1) n.
@@ -261,36 +259,50 @@ void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const P
                      flux * past.normal_z + far * (far_smoothing * psi.z - past.normal_z)};
 }
 
+/// ∂(δ y)/∂t + ∇·(δ y v), v the fluid's velocity along the membrane and the level sets' own velocity across it. The
+/// two differ where the profile is being restored; with the fluid's velocity alone y would grow in the layer's tails.
+template <class Number>
+void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past,
+                   double weighted_past, const StepNumbers& step, AtPoint<Number>& row) {
+    const auto &ur = x[velocity_r].value, &uz = x[velocity_z].value;
+    const Number density = (p.layer.delta + surface_floor) * y;
+    const Number across = (step.rate * x[distance].value + past.distance) * p.inverse_gradient + p.normal_r * ur +
+                          p.normal_z * uz;
+    row.value = step.rate * density + weighted_past;
+    row.r = (-1.0) * density * (ur - across * p.normal_r);
+    row.z = (-1.0) * density * (uz - across * p.normal_z);
+}
+
 /// (40), (41), or (39), or (14): δ c is conserved.
 template <class Number>
 void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past,
                    const StepNumbers& step, Fields<Number>& row) {
     const auto &c = x[molecule_density], &mu = x[molecule_potential];
-    const Number surface = p.layer.delta + surface_floor, density = surface * c.value;
-    row[molecule_density] = {step.rate * density + past.molecules, -(density * x[velocity_r].value),
-                             -(density * x[velocity_z].value)};
+    const Number surface = p.layer.delta + surface_floor;
+    add_transport(c.value, x, p, past, past.molecules, step, row[molecule_density]);
+    const Number phi2 = p.layer.phi * p.layer.phi;
     add_alignment(c, past, step.molecules.normal_diffusivity * surface, row[molecule_density]);
+    add_diffusion(c, (molecule_leak * step.molecules.normal_diffusivity) * (phi2 * phi2), row[molecule_density]);
     row[molecule_potential].value = surface * mu.value;
     if (step.molecules.transport == Transport::cahn_hilliard) {
         const double width = step.molecules.interface_width;
         const auto well = double_well(value_of(c.value));
-        add_diffusion(mu, step.molecules.mobility * surface, row[molecule_density]);
-        row[molecule_potential].value = surface * (mu.value - chain(c.value, well.first, well.second) / width);
-        add_diffusion(c, -width * surface, row[molecule_potential]);
+        add_diffusion(mu, step.molecules.mobility * p.layer.delta, row[molecule_density]);
+        row[molecule_potential].value =
+            surface * mu.value - (1 / width) * p.layer.delta * chain(c.value, well.first, well.second);
+        add_diffusion(c, -width * p.layer.delta, row[molecule_potential]);
     } else if (step.molecules.transport == Transport::fickian) {
-        add_diffusion(c, step.molecules.diffusivity * surface, row[molecule_density]);
+        add_diffusion(c, step.molecules.diffusivity * p.layer.delta, row[molecule_density]);
     }
 }
 
 /// (38): δ s is the membrane's material; where it enters at the rim s = 1.
 template <class Number>
-void add_stretching(const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past, double r,
+void add_stretching(const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past,
                     const StepNumbers& step, Fields<Number>& row) {
-    const auto &s = x[membrane_stretch], &ur = x[velocity_r], &uz = x[velocity_z], &psi = x[distance];
-    const Number surface = p.layer.delta + surface_floor, density = surface * s.value;
-    row[membrane_stretch].value = step.rate * density + past.stretching + density * (ur.r + ur.value / r + uz.z) +
-                                  surface * (ur.value * s.r + uz.value * s.z) +
-                                  p.layer.delta_slope * s.value * (ur.value * psi.r + uz.value * psi.z);
+    const auto& s = x[membrane_stretch];
+    const Number surface = p.layer.delta + surface_floor;
+    add_transport(s.value, x, p, past, past.stretching, step, row[membrane_stretch]);
     add_alignment(s, past, step.numerics.stretching_alignment * surface, row[membrane_stretch]);
     add_diffusion(s, step.numerics.stretching_diffusivity * surface, row[membrane_stretch]);
 }
@@ -303,14 +315,15 @@ Fields<Number> point_equations(const Fields<Number>& x, double r, const PointHis
     const auto& psi = x[distance];
     const Number squared = psi.r * psi.r + psi.z * psi.z;
     const Number inverse = inverse_root(squared + gradient_floor * gradient_floor);
-    const PointGeometry<Number> p{layer_profile(psi.value, epsilon), psi.r * inverse, psi.z * inverse, squared};
+    const PointGeometry<Number> p{layer_profile(psi.value, epsilon), psi.r * inverse, psi.z * inverse, squared,
+                                  inverse};
     Fields<Number> row;
-    const PointBending<Number> bending = add_bending(x, p, model, epsilon, row);
-    add_flow(x, p, bending, r, past, step, row);
+    const Number e = add_bending(x, p, model, epsilon, past, row);
+    add_flow(x, p, e, r, past, step, row);
     add_inextensibility(x, p, past, r, step.numerics, row);
     add_motion(x, p, past, step, row);
     add_molecules(x, p, past, step, row);
-    add_stretching(x, p, past, r, step, row);
+    add_stretching(x, p, past, step, row);
     return row;
 }
 

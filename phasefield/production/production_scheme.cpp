@@ -19,7 +19,8 @@ constexpr double safety = 0.85;         // of the step
 constexpr double largest_growth = 2;    // per step
 constexpr double tolerated_excess = 2;  // of the error over its tolerance, beyond which a step is repeated
 constexpr double newton_part = 0.01;    // of the step's tolerance to which Newton's method converges
-constexpr int most_newton_iterations = 8;
+constexpr int most_iterations = 12;         // of Newton's method
+constexpr double slow_contraction = 0.2;    // of the changes from one iteration to the next: then new factors
 constexpr double smallest_step = 1e-5;  // of the first one
 constexpr double largest_motion = 1.5;  // of the membrane in one step, in units of ε
 
@@ -42,37 +43,29 @@ ProductionScheme::ProductionScheme(const Parameters& parameters, MPI_Comm commun
 
 namespace {
 
-/// φ, p and the sharp λ, which are not unknowns themselves.
+/// φ and the pressure with the layer's part, which are not unknowns themselves.
 class PhysicalFields : public dealii::DataPostprocessor<2> {
   public:
-    PhysicalFields(double epsilon, const BendingModel& model) : epsilon_(epsilon), model_(&model) {}
-    [[nodiscard]] std::vector<std::string> get_names() const override { return {"phi", "pressure", "lambda"}; }
+    explicit PhysicalFields(double epsilon) : epsilon_(epsilon) {}
+    [[nodiscard]] std::vector<std::string> get_names() const override { return {"phi", "pressure"}; }
     [[nodiscard]] std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>
     get_data_component_interpretation() const override {
         return std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
-            3, dealii::DataComponentInterpretation::component_is_scalar);
+            2, dealii::DataComponentInterpretation::component_is_scalar);
     }
-    [[nodiscard]] dealii::UpdateFlags get_needed_update_flags() const override {
-        return dealii::update_values | dealii::update_gradients;
-    }
+    [[nodiscard]] dealii::UpdateFlags get_needed_update_flags() const override { return dealii::update_values; }
     void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<2>& in,
                                std::vector<dealii::Vector<double>>& out) const override {
         for (std::size_t q = 0; q < out.size(); ++q) {
             const auto& value = in.solution_values[q];
             out[q](0) = equilibrium_profile(value(distance), epsilon_);
-            const auto& gradient = in.solution_gradients[q];
-            const auto coefficients = bending_coefficients(*model_, value(molecule_density));
-            const double b = value(moment);
-            out[q](1) = value(pressure_rest) + layer_profile(value(distance), epsilon_).delta *
-                                                   (value(pressure_layer) + 0.5 * b * b / coefficients.stiffness +
-                                                    gradient[distance] * gradient[moment]);
-            out[q](2) = sharp_tension(value(tension_rest), b, coefficients);
+            out[q](1) =
+                value(Field::pressure) + layer_profile(value(distance), epsilon_).delta * value(pressure_layer);
         }
     }
 
   private:
     double epsilon_;
-    const BendingModel* model_;
 };
 
 }  // namespace
@@ -92,8 +85,8 @@ void ProductionScheme::renew() {
 }
 
 Contour ProductionScheme::contour(const Vector& solution) const {
-    const ContourFields fields{&space_, &solution, distance,  velocity_r,       velocity_z, tension_rest,
-                               1,       &space_,   &solution, molecule_density, moment,     &model_};
+    const ContourFields fields{&space_, &solution, distance, velocity_r, velocity_z, tension,
+                               1,       &space_,   &solution, molecule_density};
     return extract_contour(fields, parameters_);
 }
 
@@ -147,8 +140,8 @@ double ProductionScheme::step(double time, double deadline) const {
     return nominal_ >= 0.5 * left ? 0.5 * left : nominal_;  // no tiny last step
 }
 
-Vector ProductionScheme::predict(double time) const {
-    const auto weights = extrapolation_weights(time, times_, std::min(order() + 1, times_.size()));
+Vector ProductionScheme::polynomial(double time, std::size_t count) const {
+    const auto weights = extrapolation_weights(time, times_, count);
     Vector out = space_.vector();
     for (std::size_t j = 0; j < weights.size(); ++j) out.add(weights[j], solutions_[j]);
     out.update_ghost_values();
@@ -158,20 +151,28 @@ Vector ProductionScheme::predict(double time) const {
 void ProductionScheme::solve(Vector& solution, const StepHistory& history) {
     const double wanted = newton_part * position_tolerance(parameters_);
     double last = 1e300;
+    bool refactor = true;
     std::string changes;
-    for (int iteration = 0; iteration < most_newton_iterations; ++iteration) {
-        assemble(space_, pattern_, model_, numbers_, history, solution, system_);
-        system_.forget_factors();
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
         Vector increment = space_.vector();
-        system_.solve(space_, increment);
+        if (refactor) {
+            assemble(space_, pattern_, model_, numbers_, history, solution, system_);
+            system_.forget_factors();
+            system_.solve(space_, increment);
+        } else {
+            assemble_residual(space_, pattern_, model_, numbers_, history, solution, system_);
+            system_.apply_factors(space_, increment);
+        }
         const double change = layer_increment(space_, parameters_.phase_field.epsilon, increment, solution);
         solution += increment;
         solution.update_ghost_values();
-        if (change <= wanted) return;
+        const double contraction = change / last;
+        if (change <= wanted || (iteration > 0 && contraction < 0.5 && change * contraction <= 0.5 * wanted)) return;
         char text[24];
-        std::snprintf(text, sizeof text, " %.1e", change);
+        std::snprintf(text, sizeof text, refactor ? " %.1e" : " (%.1e)", change);
         changes += text;
         if (!std::isfinite(change) || change > 10 * std::max(last, wanted)) break;
+        refactor = iteration > 0 && contraction > slow_contraction;
         last = change;
     }
     throw SolverError("newton-divergence", "Newton's method changed ψ by" + changes + " nm",
@@ -182,7 +183,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     const double end = time + tau;
     const auto bdf = bdf_coefficients(end, times_, order());
     numbers_.rate = bdf.rate;
-    const Vector predicted = predict(end);
+    const Vector predicted = polynomial(end, std::min(order() + 1, times_.size()));
     trial_.reinit(predicted, true);  // assignment alone could keep the ghosts of an earlier mesh
     trial_ = predicted;
     trial_.update_ghost_values();
@@ -242,13 +243,14 @@ void ProductionScheme::write_fields(const std::filesystem::path& run_directory, 
     std::vector<Interpretation> meaning(n_fields, dealii::DataComponentInterpretation::component_is_scalar);
     meaning[velocity_r] = meaning[velocity_z] = dealii::DataComponentInterpretation::component_is_part_of_vector;
     dealii::DataOut<2> data;
-    const PhysicalFields physical(parameters_.phase_field.epsilon, model_);
+    const Vector solution = polynomial(time, times_.size());
+    const PhysicalFields physical(parameters_.phase_field.epsilon);
     data.add_data_vector(
-        space_.dofs, solutions_.front(),
-        std::vector<std::string>{"velocity", "velocity", "pressure_rest", "pressure_layer", "tension_rest", "distance",
+        space_.dofs, solution,
+        std::vector<std::string>{"velocity", "velocity", "pressure_outside_layer", "layer_pressure", "lambda", "distance",
                                  "normal_force", "moment", "c", "chemical_potential", "stretching"},
         meaning);
-    data.add_data_vector(space_.dofs, solutions_.front(), physical);
+    data.add_data_vector(space_.dofs, solution, physical);
     data.build_patches(space_.degrees[distance]);
     write_field_file(run_directory, times, time, mesh_->get_communicator(), data);
 }

@@ -27,6 +27,8 @@ class ProductionScheme : public Scheme {
     void reject(double time, double tau) override;
     void follow(const MembraneCurve& curve) override;
     [[nodiscard]] LayerIntegrals integrate() const override { return integrals_; }
+    [[nodiscard]] bool interpolates() const override { return true; }
+    [[nodiscard]] Contour contour_at(double time) const override { return contour(polynomial(time, times_.size())); }
     void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
                       double time) const override;
     [[nodiscard]] double unknowns() const override { return static_cast<double>(space_.dofs.n_dofs()); }
@@ -37,7 +39,8 @@ class ProductionScheme : public Scheme {
     void renew();
     [[nodiscard]] std::vector<RefinedBand> bands(const MembraneCurve& curve) const;
     bool adapt_once(const MembraneCurve& curve);
-    [[nodiscard]] Vector predict(double time) const;
+    /// The polynomial through the newest `count` solutions.
+    [[nodiscard]] Vector polynomial(double time, std::size_t count) const;
     void solve(Vector& solution, const StepHistory& history);
     [[nodiscard]] std::size_t order() const;
     [[nodiscard]] Contour contour(const Vector& solution) const;

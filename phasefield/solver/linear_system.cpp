@@ -86,12 +86,16 @@ bool LinearSystem::attempt() {
     return true;
 }
 
-void LinearSystem::solve(const Space& space, Vector& solution) {
-    matrix.compress(dealii::VectorOperation::add);
-    right_hand_side.compress(dealii::VectorOperation::add);
+void LinearSystem::require_finite_residual() const {
     if (!std::isfinite(right_hand_side.l2_norm()))
         throw SolverError("not-a-number", "the residual of the " + name_ + " system is not finite",
                           "use a smaller phase_field.max_motion or phase_field.max_step");
+}
+
+void LinearSystem::solve(const Space& space, Vector& solution) {
+    matrix.compress(dealii::VectorOperation::add);
+    right_hand_side.compress(dealii::VectorOperation::add);
+    require_finite_residual();
     solution_ = 0;
     const bool had_factors = factors_valid_;
     bool solved = attempt();
@@ -103,6 +107,19 @@ void LinearSystem::solve(const Space& space, Vector& solution) {
     if (!solved)
         throw SolverError("linear-solver", "MUMPS could not solve the " + name_ + " system",
                           "use a smaller phase_field.max_step, a larger tension_extension or more memory");
+    hand_out(space, solution);
+}
+
+void LinearSystem::apply_factors(const Space& space, Vector& solution) {
+    right_hand_side.compress(dealii::VectorOperation::add);
+    require_finite_residual();
+    PC preconditioner;
+    check(KSPGetPC(solver_, &preconditioner), name_);
+    check(PCApply(preconditioner, right_hand_side, solution_), name_);
+    hand_out(space, solution);
+}
+
+void LinearSystem::hand_out(const Space& space, Vector& solution) const {
     const PetscScalar* values = nullptr;
     check(VecGetArrayRead(solution_, &values), name_);
     solution.zero_out_ghost_values();

@@ -34,6 +34,9 @@ class LinearSystem {
     /// Throws SolverError("linear-solver", …) when the factorisation fails or the result is not finite.
     void solve(const Space& space, Vector& solution);
 
+    /// The last factors applied to right_hand_side: a step of the chord method.
+    void apply_factors(const Space& space, Vector& solution);
+
     dealii::PETScWrappers::MPI::SparseMatrix matrix;
     dealii::PETScWrappers::MPI::Vector right_hand_side;
 
@@ -43,6 +46,8 @@ class LinearSystem {
   private:
     void destroy();
     bool attempt();
+    void require_finite_residual() const;
+    void hand_out(const Space& space, Vector& solution) const;
 
     MPI_Comm communicator_;
     std::string name_;

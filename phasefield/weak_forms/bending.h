@@ -56,12 +56,6 @@ inline ConcentrationForce concentration_force(double phi, double moment, const B
             -scale * moment * 2 * phi * inverse_sqrt2 * b.curvature_c};
 }
 
-/// Tension of the sharp model [pN/nm] from what the production scheme solves for, the tension less b (b/β − C), with
-/// the moment b = β K: the diffuse model's tension contains the energy density ½ b²/β besides.
-inline double sharp_tension(double tension_rest, double moment, const BendingCoefficients& b) {
-    return tension_rest + (0.5 * moment / b.stiffness - b.curvature) * moment;
-}
-
 /// Equilibrium profile (3) at signed distance d [nm], d > 0 on the extracellular side.
 inline double equilibrium_profile(double distance, double epsilon) {
     return std::tanh(distance * inverse_sqrt2 / epsilon);

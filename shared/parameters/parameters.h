@@ -59,7 +59,7 @@ struct MoleculeParameters {
 };
 
 struct PhaseFieldParameters {
-    PhaseFieldScheme scheme = PhaseFieldScheme::paper;
+    PhaseFieldScheme scheme = PhaseFieldScheme::production;
     double epsilon = 1.2;
     double mobility = 0.0064;
     double tension_extension = 0.390625;
@@ -69,7 +69,7 @@ struct PhaseFieldParameters {
     double advection_centering = 0.5;
     double force_centering = 1;
     ViscosityMean viscosity_mean = ViscosityMean::arithmetic;
-    double cell_size = 1.25;
+    double cell_size = 0;
     int far_refinements = 3;
     double band_width = 4.5;
     int degree = 3;
@@ -79,7 +79,7 @@ struct PhaseFieldParameters {
     int ramp_steps = 10;
     double max_step = 2e-3;
     double max_motion = 0.3;
-    double profile_relaxation = 2e5;
+    double profile_relaxation = 2e4;
     double tension_alignment = 30;
     double tension_leak = 1e-2;
     double strain_relaxation = 100;
