@@ -109,7 +109,8 @@ EquationPattern::EquationPattern(const Parameters& p, const BendingModel& model)
     PointHistory past;
     past.normal_r = 0.6;
     past.normal_z = 0.8;
-    const auto rows = point_equations(fields_from<FeatureDual>(values), 3.0, past, {1.0, p.phase_field, p.fluid, p.molecules}, model);
+    const auto rows =
+        point_equations(fields_from<FeatureDual>(values), 3.0, past, {1.0, p.phase_field, p.fluid, p.molecules}, model);
     couplings.fill(dealii::DoFTools::none);
     for (unsigned int f = 0; f < n_fields; ++f) {
         couplings(f, f) = dealii::DoFTools::always;

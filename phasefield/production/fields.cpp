@@ -22,8 +22,7 @@ void close_constraints(Space& space, const Parameters& p) {
             (boundary == side && component == membrane_stretch);
         if (fixed && !space.constraints.is_constrained(index)) space.constraints.add_line(index);
     });
-    if (!flow)
-        switch_off(space, {velocity_r, velocity_z, pressure, pressure_layer, tension, membrane_stretch});
+    if (!flow) switch_off(space, {velocity_r, velocity_z, pressure, pressure_layer, tension, membrane_stretch});
     if (flow && !p.membrane.inextensible) switch_off(space, {tension});
     space.constraints.close();
 }

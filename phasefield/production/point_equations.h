@@ -44,14 +44,14 @@ inline constexpr double energy_floor = 1e-4;         // f of the energy's weight
 inline constexpr double energy_norm = 1.0004489587;  // 1/∫ δ²/(δ + f) dψ
 inline constexpr double moment_floor = 4e-5;         // [nm] continues b smoothly where the energy has no weight
 inline constexpr double distance_floor = 2e-8;       // part of (1 − φ²)² that moves ψ far from the layer
-inline constexpr double force_alignment = 100;       // [ε²] keeps G constant along the normal
+inline constexpr double force_alignment = 20;        // [ε²] keeps G constant along the normal
 inline constexpr double profile_floor = 1e-5;        // the same for the flux that keeps |∇ψ| = 1
 inline constexpr double alignment_floor = 1e-4;      // the same for λ
 inline constexpr double far_smoothing = 1.02;        // 1/|∇ψ| far from the layer, where ψ solves a Poisson equation
 inline constexpr double layer_pressure_alignment = 30;  // [nm³/(pN µs)] keeps q constant along the normal
 inline constexpr double pressure_leak = 0.01;           // [nm/(pN µs)] ∇·u per q: decides between p and δ q
-inline constexpr double molecule_leak = 1e-6;           // [1/nm] of the normal diffusivity: defines c far from the layer
-inline constexpr double gradient_floor = 1e-3;          // of |∇ψ| in the normal
+inline constexpr double molecule_leak = 1e-6;   // [1/nm] of the normal diffusivity: defines c far from the layer
+inline constexpr double gradient_floor = 1e-3;  // of |∇ψ| in the normal
 
 /// φ, δ, δ' and the rest that only depend on ψ.
 template <class Number>
@@ -159,8 +159,8 @@ void add_alignment(const AtPoint<Number>& y, const PointHistory& past, const Num
 /// the fluid it would drive a flow within the layer that the relaxation undoes all the time.
 /// Returns e [pN/nm²].
 template <class Number>
-Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const BendingModel& model,
-                   double epsilon, const PointHistory& past, Fields<Number>& row) {
+Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const BendingModel& model, double epsilon,
+                   const PointHistory& past, Fields<Number>& row) {
     const auto &psi = x[distance], &b = x[moment];
     const Stiffness<Number> m = stiffness_of(x[molecule_density].value, model);
     const EnergyWeight<Number> w = energy_weight(p.layer, epsilon);
@@ -200,8 +200,8 @@ void extend_multiplier(const AtPoint<Number>& y, const PointGeometry<Number>& p,
 /// q constant along the normal the multiplier of ∫δ ∇·u across the layer: p alone, continuous and quadratic, cannot
 /// follow δ on cells as wide as the layer, and the rest would drive a spurious flow.
 template <class Number>
-void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Number& e, double r, const PointHistory& past,
-              const StepNumbers& step, Fields<Number>& row) {
+void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Number& e, double r,
+              const PointHistory& past, const StepNumbers& step, Fields<Number>& row) {
     const auto &ur = x[velocity_r], &uz = x[velocity_z], &psi = x[distance], &c = x[molecule_density];
     const Number g = (p.layer.delta + surface_floor) * x[normal_force].value;
     const Number nu = layer_viscosity(p.layer.phi, step.fluid, step.numerics.viscosity_mean);
@@ -266,8 +266,8 @@ void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry
                    double weighted_past, const StepNumbers& step, AtPoint<Number>& row) {
     const auto &ur = x[velocity_r].value, &uz = x[velocity_z].value;
     const Number density = (p.layer.delta + surface_floor) * y;
-    const Number across = (step.rate * x[distance].value + past.distance) * p.inverse_gradient + p.normal_r * ur +
-                          p.normal_z * uz;
+    const Number across =
+        (step.rate * x[distance].value + past.distance) * p.inverse_gradient + p.normal_r * ur + p.normal_z * uz;
     row.value = step.rate * density + weighted_past;
     row.r = (-1.0) * density * (ur - across * p.normal_r);
     row.z = (-1.0) * density * (uz - across * p.normal_z);

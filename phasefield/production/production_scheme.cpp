@@ -14,15 +14,15 @@ namespace endoflow::phasefield::production {
 namespace {
 
 constexpr std::size_t highest_order = 2;
-constexpr double first_steps = 3;       // before the error can be estimated
-constexpr double safety = 0.85;         // of the step
-constexpr double largest_growth = 2;    // per step
-constexpr double tolerated_excess = 2;  // of the error over its tolerance, beyond which a step is repeated
-constexpr double newton_part = 0.01;    // of the step's tolerance to which Newton's method converges
-constexpr int most_iterations = 12;         // of Newton's method
-constexpr double slow_contraction = 0.2;    // of the changes from one iteration to the next: then new factors
-constexpr double smallest_step = 1e-5;  // of the first one
-constexpr double largest_motion = 1.5;  // of the membrane in one step, in units of ε
+constexpr double first_steps = 3;         // before the error can be estimated
+constexpr double safety = 0.85;           // of the step
+constexpr double largest_growth = 2;      // per step
+constexpr double tolerated_excess = 2;    // of the error over its tolerance, beyond which a step is repeated
+constexpr double newton_part = 0.01;      // of the step's tolerance to which Newton's method converges
+constexpr int most_iterations = 12;       // of Newton's method
+constexpr double slow_contraction = 0.2;  // of the changes from one iteration to the next: then new factors
+constexpr double smallest_step = 1e-5;    // of the first one
+constexpr double largest_motion = 1.5;    // of the membrane in one step, in units of ε
 
 /// Largest error of the membrane's position per step [nm].
 double position_tolerance(const Parameters& p) {
@@ -59,8 +59,7 @@ class PhysicalFields : public dealii::DataPostprocessor<2> {
         for (std::size_t q = 0; q < out.size(); ++q) {
             const auto& value = in.solution_values[q];
             out[q](0) = equilibrium_profile(value(distance), epsilon_);
-            out[q](1) =
-                value(Field::pressure) + layer_profile(value(distance), epsilon_).delta * value(pressure_layer);
+            out[q](1) = value(Field::pressure) + layer_profile(value(distance), epsilon_).delta * value(pressure_layer);
         }
     }
 
@@ -71,7 +70,7 @@ class PhysicalFields : public dealii::DataPostprocessor<2> {
 }  // namespace
 
 double ProductionScheme::band() const {
-    return (parameters_.phase_field.band_width + band_reserve) * parameters_.phase_field.epsilon;
+    return parameters_.phase_field.band_width * parameters_.phase_field.epsilon;
 }
 
 void ProductionScheme::distribute() {
@@ -85,8 +84,8 @@ void ProductionScheme::renew() {
 }
 
 Contour ProductionScheme::contour(const Vector& solution) const {
-    const ContourFields fields{&space_, &solution, distance, velocity_r, velocity_z, tension,
-                               1,       &space_,   &solution, molecule_density};
+    const ContourFields fields{&space_, &solution, distance, velocity_r, velocity_z,
+                               tension, 1,         &space_,  &solution,  molecule_density};
     return extract_contour(fields, parameters_);
 }
 
@@ -247,8 +246,8 @@ void ProductionScheme::write_fields(const std::filesystem::path& run_directory, 
     const PhysicalFields physical(parameters_.phase_field.epsilon);
     data.add_data_vector(
         space_.dofs, solution,
-        std::vector<std::string>{"velocity", "velocity", "pressure_outside_layer", "layer_pressure", "lambda", "distance",
-                                 "normal_force", "moment", "c", "chemical_potential", "stretching"},
+        std::vector<std::string>{"velocity", "velocity", "pressure_outside_layer", "layer_pressure", "lambda",
+                                 "distance", "normal_force", "moment", "c", "chemical_potential", "stretching"},
         meaning);
     data.add_data_vector(space_.dofs, solution, physical);
     data.build_patches(space_.degrees[distance]);

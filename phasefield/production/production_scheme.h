@@ -7,9 +7,7 @@
 
 namespace endoflow::phasefield::production {
 
-/// The band of small cells is wider than band_width by this, in units of ε …
-inline constexpr double band_reserve = 1.0;
-/// … and the mesh follows when the membrane has moved this far.
+/// The mesh follows when the membrane has moved this far, in units of ε.
 inline constexpr double follow_after_motion = 0.5;
 
 /// All fields at one time level are solved for together by Newton's method; BDF2 in time with the error of ψ
