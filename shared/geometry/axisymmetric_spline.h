@@ -16,6 +16,7 @@ class AxisymmetricSpline {
 
     [[nodiscard]] double value(double t) const { return gsl_spline_eval(spline_.get(), t, nullptr); }
     [[nodiscard]] double derivative(double t) const { return gsl_spline_eval_deriv(spline_.get(), t, nullptr); }
+    [[nodiscard]] double second_derivative(double t) const { return gsl_spline_eval_deriv2(spline_.get(), t, nullptr); }
 
   private:
     std::unique_ptr<gsl_spline, decltype(&gsl_spline_free)> spline_;

@@ -60,13 +60,20 @@ double stationary_point(const AxisymmetricSpline& f, double lower, double upper)
     return 0.5 * (bracket.first + bracket.second);
 }
 
-/// The largest value of f up to sample `last`, also between samples.
+/// The largest value of f up to sample `last`, also between samples. f' is a quadratic polynomial there, whose roots
+/// are looked at without asking for signs of f' at the samples: on the axis f' is zero, with the sign of its round-off.
 double largest(const AxisymmetricSpline& f, const std::vector<double>& t, std::size_t last) {
-    double best = std::max(f.value(t[0]), f.value(t[last]));
+    double best = f.value(t[last]);
     for (std::size_t i = 0; i < last; ++i) {
         best = std::max(best, f.value(t[i]));
-        if (f.derivative(t[i]) > 0 && f.derivative(t[i + 1]) < 0)
-            best = std::max(best, f.value(stationary_point(f, t[i], t[i + 1])));
+        const double width = t[i + 1] - t[i], slope = f.derivative(t[i]), bend = f.second_derivative(t[i]);
+        const double bend_change = (f.second_derivative(t[i + 1]) - bend) / width;
+        // f' = slope + bend x + ½ bend_change x² falls through zero at the root with f'' = −√discriminant.
+        const double discriminant = bend * bend - 2 * bend_change * slope;
+        if (discriminant <= 0) continue;
+        const double root = std::sqrt(discriminant);
+        const double x = bend < 0 ? 2 * slope / (root - bend) : -(bend + root) / bend_change;
+        if (x > 0 && x < width) best = std::max(best, f.value(t[i] + x));
     }
     return best;
 }
