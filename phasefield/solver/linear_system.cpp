@@ -47,7 +47,11 @@ void LinearSystem::reinit(const Space& space, const Couplings& couplings) {
     matrix.reinit(space.owned, space.owned, pattern, communicator_);
     right_hand_side.reinit(space.owned, communicator_);
     solution_.reinit(space.owned, communicator_);
+    renew_solver();
+}
 
+void LinearSystem::renew_solver() {
+    destroy();
     check(KSPCreate(communicator_, &solver_), name_);
     check(KSPSetType(solver_, KSPGMRES), name_);
     check(KSPGMRESSetRestart(solver_, most_iterations), name_);
@@ -99,10 +103,11 @@ void LinearSystem::solve(const Space& space, Vector& solution) {
     solution_ = 0;
     const bool had_factors = factors_valid_;
     bool solved = attempt();
+    if (!solved) renew_solver();  // PETSc would go on reporting the failure
     if (!solved && had_factors) {
-        factors_valid_ = false;
         solution_ = 0;
         solved = attempt();
+        if (!solved) renew_solver();
     }
     if (!solved)
         throw SolverError("linear-solver", "MUMPS could not solve the " + name_ + " system",

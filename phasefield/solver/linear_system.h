@@ -45,6 +45,7 @@ class LinearSystem {
 
   private:
     void destroy();
+    void renew_solver();
     bool attempt();
     void require_finite_residual() const;
     void hand_out(const Space& space, Vector& solution) const;
