@@ -1,4 +1,5 @@
 #include "phasefield/evolution/time_loop.h"
+#include "phasefield/io/mesh_checkpoint.h"
 
 namespace endoflow::phasefield {
 
@@ -26,7 +27,9 @@ void TimeLoop::checkpoint() {
                           {"neck_radius", neck_radius_.value_or(-1)},
                           {"budding_time", budding_time_.value_or(-1)}};
     checkpoint.arrays["field_times"] = field_times_;
-    scheme_->save(output_.directory() / "checkpoint" / slot, checkpoint);
+    const auto directory = output_.directory() / "checkpoint" / slot;
+    scheme_->save(directory, checkpoint);
+    checkpoint.texts["mesh_files"] = describe_files(directory);
     output_.write_checkpoint(checkpoint);
 }
 
@@ -42,7 +45,9 @@ void TimeLoop::restart(const Checkpoint& checkpoint) {
     neck_radius_ = optional("neck_radius");
     budding_time_ = optional("budding_time");
     field_times_ = checkpoint.array("field_times");
-    contour_ = scheme_->load(output_.directory() / "checkpoint" / checkpoint.text("mesh"), checkpoint).contour;
+    const auto directory = output_.directory() / "checkpoint" / checkpoint.text("mesh");
+    require_files(directory, checkpoint.text("mesh_files"));
+    contour_ = scheme_->load(directory, checkpoint).contour;
     observables_ = measure(contour_.curve, model_);
 }
 

@@ -3,43 +3,34 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <fstream>
+#include <system_error>
 
+#include "shared/output/atomic_file.h"
+#include "shared/output/field_index.h"
 #include "shared/support/error.h"
 
 namespace endoflow::phasefield {
 
-namespace {
-
-std::string file_name(std::size_t index) {
-    char name[40];
-    std::snprintf(name, sizeof name, "fields/fields_%06zu.vtu", index);
-    return name;
-}
-
-void write_index(const std::filesystem::path& file, const std::vector<double>& times) {
-    std::vector<std::pair<double, std::string>> entries;
-    for (std::size_t i = 0; i < times.size(); ++i) entries.emplace_back(times[i], file_name(i));
-    const auto fresh = file.string() + ".new";
-    {
-        std::ofstream stream(fresh);
-        dealii::DataOutBase::write_pvd_record(stream, entries);
-        if (!stream.flush()) throw IoError("cannot write " + fresh);
-    }
-    std::filesystem::rename(fresh, file);
-}
-
-}  // namespace
-
 void write_field_file(const std::filesystem::path& run_directory, std::vector<double>& times, double time,
                       MPI_Comm communicator, const dealii::DataOut<2>& data) {
     const bool first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
-    if (first) std::filesystem::create_directories(run_directory / "fields");
+    const RunDirectory directory{run_directory};
+    const auto file = field_file(directory, times.size());
+    std::error_code failure;
+    if (first) std::filesystem::create_directories(file.parent_path(), failure);
+    if (failure) throw IoError(file.parent_path().string() + ": cannot be created: " + failure.message());
     MPI_Barrier(communicator);
-    data.write_vtu_in_parallel((run_directory / file_name(times.size())).string(), communicator);
+    auto part = file;
+    part += ".part";
+    try {
+        data.write_vtu_in_parallel(part.string(), communicator);
+    } catch (const dealii::ExceptionBase&) {
+        throw IoError(part.string() + ": cannot be written; check the disk's space and permissions");
+    }
     times.push_back(time);
-    if (first) write_index(run_directory / "fields.pvd", times);
+    if (!first) return;
+    publish_file(part, file);
+    write_field_list(directory, times);
 }
 
 void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times, double time,

@@ -2,6 +2,14 @@
 
 #include <deal.II/distributed/solution_transfer.h>
 
+#include <algorithm>
+#include <array>
+#include <boost/crc.hpp>
+#include <cstdint>
+#include <fstream>
+#include <system_error>
+#include <vector>
+
 #include "shared/support/error.h"
 
 namespace endoflow::phasefield {
@@ -18,7 +26,39 @@ Vector read(const Space& space) {
     return vector;
 }
 
+std::uint32_t checksum(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) throw IoError(file.string() + ": cannot be read; check its permissions");
+    boost::crc_32_type crc;
+    std::array<char, 1 << 16> block;
+    do {
+        stream.read(block.data(), block.size());
+        crc.process_bytes(block.data(), static_cast<std::size_t>(stream.gcount()));
+    } while (stream);
+    return crc.checksum();
+}
+
 }  // namespace
+
+std::string describe_files(const std::filesystem::path& directory) {
+    std::error_code failure;
+    std::vector<std::filesystem::path> files;
+    for (std::filesystem::directory_iterator file(directory, failure), end; !failure && file != end;
+         file.increment(failure))
+        files.push_back(file->path());
+    if (failure) throw IoError(directory.string() + ": cannot be read: " + failure.message());
+    std::sort(files.begin(), files.end());
+    std::string text;
+    for (const auto& file : files)
+        text += file.filename().string() + " " + std::to_string(std::filesystem::file_size(file)) + " " +
+                std::to_string(checksum(file)) + "\n";
+    return text;
+}
+
+void require_files(const std::filesystem::path& directory, const std::string& description) {
+    if (describe_files(directory) != description)
+        throw IoError(directory.string() + ": damaged: not the mesh of this checkpoint; run without --restart");
+}
 
 void make_empty_directory(const std::filesystem::path& directory, MPI_Comm communicator) {
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0) {

@@ -1,10 +1,18 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "phasefield/evolution/discretization.h"
 
 namespace endoflow::phasefield {
+
+/// Names, sizes and checksums of the files in a directory, one text.
+[[nodiscard]] std::string describe_files(const std::filesystem::path& directory);
+
+/// Throws IoError unless the files in the directory are those that `description` describes: p4est ends the program when
+/// it reads a damaged one.
+void require_files(const std::filesystem::path& directory, const std::string& description);
 
 /// Makes an empty directory in the place of what is there; collective.
 void make_empty_directory(const std::filesystem::path& directory, MPI_Comm communicator);

@@ -5,6 +5,7 @@
 #include "shared/output/atomic_file.h"
 #include "shared/output/hdf5_file.h"
 #include "shared/support/error.h"
+#include "shared/support/version.h"
 
 namespace endoflow {
 
@@ -78,6 +79,7 @@ void write_checkpoint_file(const std::filesystem::path& directory, const Checkpo
         Hdf5File hdf5(part, Hdf5File::Mode::create);
         hdf5.write_attribute("/", "format", format_name);
         hdf5.write_attribute("/", "version", format_version);
+        hdf5.write_attribute("/", "written_by", written_by());
         hdf5.write_attribute("/", "time_us", checkpoint.time_us);
         for (const char* group : {"/scalars", "/arrays", "/texts"}) hdf5.create_group(group);
         for (const auto& [name, value] : checkpoint.scalars) hdf5.write_array("/scalars/" + name, {value});

@@ -7,6 +7,7 @@
 
 #include "shared/output/atomic_file.h"
 #include "shared/support/error.h"
+#include "shared/support/version.h"
 
 namespace endoflow {
 
@@ -14,11 +15,7 @@ namespace {
 
 constexpr std::uintmax_t largest_list = std::uintmax_t{1} << 26;
 
-std::string file_name(std::size_t number) {
-    return fmt::format("fields_{:06d}.vtu", number);
-}
-
-// The times of a list that write_list() wrote.
+// The times of a list that write_field_list() wrote.
 std::vector<double> read_times(const std::filesystem::path& list) {
     const std::string text = read_file(list, largest_list);
     const std::string key = "timestep=\"";
@@ -34,37 +31,42 @@ std::vector<double> read_times(const std::filesystem::path& list) {
 
 }  // namespace
 
+std::filesystem::path field_file(const RunDirectory& directory, std::size_t number) {
+    return directory.fields() / fmt::format("fields_{:06d}.vtu", number);
+}
+
+void write_field_list(const RunDirectory& directory, const std::vector<double>& times) {
+    std::string text = fmt::format(
+        "<?xml version=\"1.0\"?>\n<!-- {} -->\n"
+        "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
+        written_by());
+    for (std::size_t i = 0; i < times.size(); ++i)
+        text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", times[i],
+                            field_file(directory, i).lexically_relative(directory.root).string());
+    write_file_atomically(directory.field_index(), text + "</Collection>\n</VTKFile>\n");
+}
+
 FieldIndex::FieldIndex(RunDirectory directory) : directory_(std::move(directory)) {}
 
 FieldIndex::FieldIndex(RunDirectory directory, double last_time_us) : directory_(std::move(directory)) {
     if (!std::filesystem::exists(directory_.field_index())) return;
     for (const double time : read_times(directory_.field_index()))
         if (time <= last_time_us) times_.push_back(time);
-    write_list();
+    write_field_list(directory_, times_);
 }
 
 void FieldIndex::add(double time_us, const std::string& vtu) {
     std::error_code failure;
     std::filesystem::create_directories(directory_.fields(), failure);
     if (failure) throw IoError(directory_.fields().string() + ": cannot be created: " + failure.message());
-    write_file_atomically(directory_.fields() / file_name(times_.size()), vtu);
+    write_file_atomically(field_file(directory_, times_.size()), vtu);
     times_.push_back(time_us);
-    write_list();
+    write_field_list(directory_, times_);
 }
 
 std::optional<double> FieldIndex::latest() const {
     if (times_.empty()) return std::nullopt;
     return times_.back();
-}
-
-void FieldIndex::write_list() const {
-    std::string text =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-        "<Collection>\n";
-    for (std::size_t i = 0; i < times_.size(); ++i)
-        text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}/{}\"/>\n", times_[i],
-                            directory_.fields().filename().string(), file_name(i));
-    write_file_atomically(directory_.field_index(), text + "</Collection>\n</VTKFile>\n");
 }
 
 }  // namespace endoflow

@@ -9,6 +9,12 @@
 
 namespace endoflow {
 
+/// fields/fields_NNNNNN.vtu
+[[nodiscard]] std::filesystem::path field_file(const RunDirectory& directory, std::size_t number);
+
+/// Writes fields.pvd: the field files 0, 1, … with these times [µs]. Throws IoError.
+void write_field_list(const RunDirectory& directory, const std::vector<double>& times);
+
 /// The field files of a run and fields.pvd, the list of them that ParaView opens.
 class FieldIndex {
   public:
@@ -26,8 +32,6 @@ class FieldIndex {
   private:
     RunDirectory directory_;
     std::vector<double> times_;
-
-    void write_list() const;
 };
 
 }  // namespace endoflow

@@ -8,6 +8,7 @@
 
 #include "shared/output/hdf5_file.h"
 #include "shared/support/error.h"
+#include "shared/support/version.h"
 
 namespace endoflow {
 
@@ -51,6 +52,7 @@ void require_finite(const MembraneCurve& curve) {
 
 ShapesFile::ShapesFile(const std::filesystem::path& file) : path_(file) {
     Hdf5File hdf5(file, Hdf5File::Mode::create);
+    hdf5.write_attribute("/", "written_by", written_by());
     hdf5.create_group("/shapes");
     for (const auto& column : columns)
         hdf5.write_attribute("/shapes", fmt::format("{}_unit", column.name), column.unit);

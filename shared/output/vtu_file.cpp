@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "shared/support/error.h"
+#include "shared/support/version.h"
 
 namespace endoflow {
 
@@ -32,11 +33,11 @@ std::string vtu_text(const QuadGrid& grid) {
     std::string text;
     auto out = std::back_inserter(text);
     fmt::format_to(out,
-                   "<?xml version=\"1.0\"?>\n"
+                   "<?xml version=\"1.0\"?>\n<!-- {} -->\n"
                    "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
                    "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
                    "<Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n",
-                   points, cells);
+                   written_by(), points, cells);
     for (const double y : grid.y)
         for (const double x : grid.x) fmt::format_to(out, "{:.9g} {:.9g} 0\n", x, y);
     fmt::format_to(out,
