@@ -2,9 +2,12 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <stdexcept>
 
 #include "boundary_integral/evolution/stiff_integrator.h"
+#include "boundary_integral/flow/dense_solver.h"
 #include "shared/support/error.h"
 
 namespace {
@@ -111,4 +114,76 @@ TEST_CASE("a problem that cannot be integrated ends with a name", "[integrator]"
         CHECK(std::string(error.what()).find("not finite") != std::string::npos);
     }
     CHECK(i.time() == Approx(0.1).epsilon(1e-3));
+}
+
+namespace {
+
+// Integrates to t = 1 and returns the error there.
+double error_at_one(StiffIntegrator& i) {
+    while (i.time() < 1) i.advance(1);
+    return std::hypot(i.state()[0] - std::cos(1.0), i.state()[1] - 0.5);
+}
+
+StiffIntegrator start(const StiffProblem& p, double first_step) {
+    const Eigen::Vector3d y(1, 1, 0);
+    return {p, StepHistory::start(0, first_step, y, problem(1e-6).rate(y)), {1, 1e-12}};
+}
+
+}  // namespace
+
+TEST_CASE("a residual that is not finite costs one rejected step", "[integrator][faults]") {
+    for (const double fault : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+        StiffProblem p = problem(1e-6);
+        int calls = 0;
+        p.rate = [rate = p.rate, &calls, fault](const Eigen::VectorXd& y) -> Eigen::VectorXd {
+            Eigen::VectorXd value = rate(y);
+            if (++calls == 40) value[1] = fault;
+            return value;
+        };
+        StiffIntegrator i = start(p, 1e-6);
+        CHECK(error_at_one(i) < 1e-5);  // ten times the tolerance per step, as without the fault
+        CHECK(i.statistics().convergence_failures == 1);
+    }
+}
+
+TEST_CASE("a singular matrix is left behind by a smaller step", "[integrator][faults]") {
+    // 1 − (h/α) ∂F/∂y vanishes for the first step h; α = 1 + 0.185 at order 1.
+    constexpr double first_step = 1e-3;
+    StiffProblem p = problem(1e-6);
+    int calls = 0;
+    p.jacobian = [jacobian = p.jacobian, &calls]() -> Eigen::MatrixXd {
+        if (++calls > 1) return jacobian();
+        return Eigen::MatrixXd::Identity(3, 3) / (first_step * (1 / 1.185));
+    };
+    StiffIntegrator i = start(p, first_step);
+    CHECK(error_at_one(i) < 1e-5);
+    CHECK(i.statistics().convergence_failures >= 1);
+}
+
+TEST_CASE("a factorisation that always fails ends with the name of the failure and a remedy", "[integrator][faults]") {
+    StiffProblem p = problem(1e-6);
+    p.jacobian = [] { return Eigen::MatrixXd::Constant(3, 3, std::nan("")).eval(); };
+    StiffIntegrator i = start(p, 1e-6);
+    try {
+        i.advance(1);
+        FAIL("the matrix is not finite");
+    } catch (const SolverError& error) {
+        CHECK(error.name() == "step-size-underflow");
+        CHECK(std::string(error.what()).find("singular-matrix") != std::string::npos);
+        CHECK(std::string(error.what()).find("use more elements") != std::string::npos);
+    }
+    CHECK(i.state() == Eigen::Vector3d(1, 1, 0));  // what had been reached stands
+    CHECK_THROWS_AS(LuFactors(Eigen::MatrixXd::Zero(3, 3), "zero"), SolverError);
+}
+
+TEST_CASE("ten failed steps in a row are survived", "[integrator][faults]") {
+    StiffProblem p = problem(1e-6);
+    int calls = 0;
+    p.begin_step = [&calls](const Eigen::VectorXd&) {
+        ++calls;
+        if (calls > 30 && calls <= 40) throw std::runtime_error("injected");
+    };
+    StiffIntegrator i = start(p, 1e-6);
+    CHECK(error_at_one(i) < 1e-5);
+    CHECK(i.statistics().convergence_failures == 10);
 }
