@@ -21,11 +21,9 @@ void TimeLoop::checkpoint() {
     Checkpoint checkpoint;
     checkpoint.time_us = time_;
     checkpoint.texts["mesh"] = slot;
-    checkpoint.scalars = {{"bending_energy", last_energy_},
-                          {"shapes_written", shapes_written_},
-                          {"checkpoints_written", checkpoints_written_},
-                          {"neck_radius", neck_radius_.value_or(-1)},
-                          {"budding_time", budding_time_.value_or(-1)}};
+    checkpoint.scalars = {{"bending_energy", last_energy_},           {"dissipated_power", last_power_},
+                          {"shapes_written", shapes_written_},        {"checkpoints_written", checkpoints_written_},
+                          {"neck_radius", neck_radius_.value_or(-1)}, {"budding_time", budding_time_.value_or(-1)}};
     checkpoint.arrays["field_times"] = field_times_;
     const auto directory = output_.directory() / "checkpoint" / slot;
     scheme_->save(directory, checkpoint);
@@ -40,6 +38,7 @@ void TimeLoop::restart(const Checkpoint& checkpoint) {
     };
     time_ = checkpoint.time_us;
     last_energy_ = checkpoint.scalar("bending_energy");
+    last_power_ = checkpoint.scalar("dissipated_power");
     shapes_written_ = checkpoint.scalar("shapes_written");
     checkpoints_written_ = checkpoint.scalar("checkpoints_written");
     neck_radius_ = optional("neck_radius");

@@ -100,8 +100,11 @@ void TimeLoop::record(double tau, const StepDiagnostics& diagnostics) {
     observables_ = measure(contour_.curve, model_);
     const double dissipation =
         diagnostics.viscous_dissipation + diagnostics.mobility_dissipation + diagnostics.extension_dissipation;
-    const double residual = tau > 0 ? (diagnostics.bending_energy - last_energy_) / tau + dissipation : 0;
+    // (21) over the step, the power by the trapezoidal rule; the first step starts from rest in an instant.
+    const double power = last_power_ > 0 ? 0.5 * (last_power_ + dissipation) : dissipation;
+    const double residual = tau > 0 ? (diagnostics.bending_energy - last_energy_) / tau + power : 0;
     last_energy_ = diagnostics.bending_energy;
+    last_power_ = dissipation;
     output_.record_step(make_history_row({time_, tau, diagnostics, scheme_->integrate(), observables_, residual,
                                           scheme_->unknowns(), scheme_->cells()}));
 }

@@ -44,7 +44,7 @@ class TimeLoop {
     BendingModel model_;
     Contour contour_;
     Observables observables_{};
-    double time_ = 0, last_energy_ = 0;
+    double time_ = 0, last_energy_ = 0, last_power_ = 0;
     double shapes_written_ = 0, checkpoints_written_ = 0;
     std::vector<double> field_times_;
     std::optional<double> neck_radius_, budding_time_;
