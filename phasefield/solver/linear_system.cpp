@@ -121,6 +121,9 @@ void LinearSystem::apply_factors(const Space& space, Vector& solution) {
     PC preconditioner;
     check(KSPGetPC(solver_, &preconditioner), name_);
     check(PCApply(preconditioner, right_hand_side, solution_), name_);
+    if (!std::isfinite(solution_.l2_norm()))
+        throw SolverError("not-a-number", "the solution of the " + name_ + " system is not finite",
+                          "use a smaller time.tolerance or phase_field.cell_size");
     hand_out(space, solution);
 }
 
