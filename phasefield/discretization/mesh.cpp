@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace endoflow::phasefield {
 
 std::unique_ptr<Mesh> coarse_mesh(const Parameters& p, MPI_Comm communicator) {
+    if (!(p.phase_field.cell_size > 0)) throw std::invalid_argument("coarse_mesh: the cell size has not been chosen");
     auto mesh = std::make_unique<Mesh>(communicator, dealii::Triangulation<2>::limit_level_difference_at_vertices);
     const double size = p.phase_field.cell_size * std::pow(2.0, p.phase_field.far_refinements);
     const auto cells = [size](double length, unsigned int multiple) {

@@ -36,7 +36,8 @@ Reference first_reference() {
 
 TEST_CASE("the standard case starts like the sharp model", "[early]") {
     const Reference reference = first_reference();
-    const Parameters p;
+    Parameters p;
+    p.phase_field.cell_size = 1.25;
     Discretization d(p, MPI_COMM_SELF);
     State state = initial_state(d);
     const BendingModel model(p.membrane);
