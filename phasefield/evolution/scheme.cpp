@@ -10,7 +10,7 @@ namespace {
 /// Cells per layer that resolve the scheme's fields. Scheme `paper` has to resolve fourth derivatives of the tanh
 /// profile; the production scheme the distance, which is smooth (it refines the patch's edge by itself).
 double chosen_cell_size(const Parameters& p) {
-    constexpr double paper_ratio = 1.25 / 1.2, production_ratio = 1;
+    constexpr double paper_ratio = 1.25 / 1.2, production_ratio = 4.0 / 3;
     if (p.phase_field.scheme == PhaseFieldScheme::paper) return paper_ratio * p.phase_field.epsilon;
     return production_ratio * p.phase_field.epsilon;
 }
