@@ -30,7 +30,12 @@ EARLY_TIMES = (0.05, 0.2, 0.5, 0.8)
 
 #: `--quick`: without flow there is nothing fast to resolve, so the phase field goes to the end with long steps. The
 #: membrane moves with (3ε/2√2) γ times the force per area, so the case's γ = 4.2 at ε = 1.2 nm is half of it at 2.4 nm.
-QUICK_GEOMETRIC = {**QUICK_LAYER, "phase_field.cell_size": "2.5", "phase_field.max_step": "0.05", "phase_field.mobility": "2.1"}
+QUICK_GEOMETRIC = {
+    **QUICK_LAYER,
+    "phase_field.cell_size": "2.5",
+    "phase_field.max_step": "0.05",
+    "phase_field.mobility": "2.1",
+}
 
 
 def wanted(quick):

@@ -8,7 +8,7 @@ BOUNDARY_INTEGRAL, PHASE_FIELD = "boundary-integral", "phase-field"
 #: The exit_reason of a run whose neck closed.
 NECK_CLOSED = "neck-closed"
 
-#: `--quick`: a layer twice as thick on cells twice as large, and the time (µs) a phase-field run is followed.
+#: `--quick`: a layer twice as thick (the scheme's cells follow it), and the time (µs) a phase-field run is followed.
 QUICK_LAYER = {"phase_field.epsilon": "2.4"}
 QUICK_END = 0.5
 

@@ -176,12 +176,13 @@ TEST_CASE("a small bud conserves its molecules, loses energy and keeps profile a
         power = seen.viscous_dissipation + seen.mobility_dissipation + seen.extension_dissipation;
         // (21) over the step, the power by the trapezoidal rule. What is left: that rule, and the molecules' transport.
         if (count > 4) CHECK(loss == Approx(0.5 * (power + power_before)).epsilon(0.05));
+        CHECK(seen.bending_energy < energy);
         energy = seen.bending_energy;
-        CHECK(outcome.diagnostics.profile_error_max < 0.01);  // the bound that users are told
-        CHECK(outcome.diagnostics.area_strain_max < 0.01);
+        CHECK(seen.profile_error_max < 0.01);  // the bound that users are told
+        CHECK(seen.area_strain_max < 0.01);
     }
-    // The bound that users are told; what is lost is Newton's and the linear solver's tolerance.
-    CHECK(scheme.integrate().molecules == Approx(mass).epsilon(1e-6));
+    // ∫δ c is conserved by the equations; what is lost, 1.6e-8, is what the chord iterations leave of their residual.
+    CHECK(scheme.integrate().molecules == Approx(mass).epsilon(1e-7));
 }
 
 TEST_CASE("the membrane is known at any time of the last step", "[production]") {
