@@ -26,6 +26,13 @@ std::string allowed(const ParameterRow& row) {
     return row.choices.empty() ? row.bounds.describe() : fmt::format("{}", fmt::join(row.choices, " | "));
 }
 
+/// Text for a cell of a Markdown table, where a bare | would end it.
+std::string cell(std::string text) {
+    for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
+        text.insert(at, 1, '\\');
+    return text;
+}
+
 /// "meaning [symbol]; unit; bounds" as one line.
 std::string annotation(const ParameterRow& row) {
     std::string text = row.meaning;
@@ -64,11 +71,8 @@ std::string render_parameters_markdown() {
             text += fmt::format("\n## [{}]\n\n| key | default | unit | allowed | symbol | meaning |\n", section);
             text += "| --- | --- | --- | --- | --- | --- |\n";
         }
-        std::string range = allowed(row);
-        for (std::size_t at = range.find('|'); at != std::string::npos; at = range.find('|', at + 2))
-            range.insert(at, 1, '\\');
         text += fmt::format("| `{}` | `{}` | {} | {} | {} | {} |\n", row.key, to_toml(row.default_value()), row.unit,
-                            range, row.symbol, row.meaning);
+                            cell(allowed(row)), cell(row.symbol), cell(row.meaning));
     }
     return text;
 }

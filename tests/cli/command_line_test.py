@@ -5,6 +5,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -91,7 +92,10 @@ class CommandLine(unittest.TestCase):
         toml = endoflow("params", "--toml")
         self.assertEqual(toml.returncode, 0)
         self.assertEqual(endoflow("check", self.case(toml.stdout)).returncode, 0)
-        self.assertIn("| `patch_radius` |", endoflow("params", "--markdown").stdout)
+        markdown = endoflow("params", "--markdown").stdout
+        self.assertIn("| `patch_radius` |", markdown)
+        rows = [re.split(r"(?<!\\)\|", line) for line in markdown.splitlines() if line.startswith("|")]
+        self.assertEqual({len(row) for row in rows}, {8})  # six cells between outer bars, also where a meaning has a |
         self.assertIn("molecules.patch_radius", endoflow("params").stdout)
 
     def test_constitutive_laws(self):
