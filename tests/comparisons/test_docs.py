@@ -69,14 +69,38 @@ class Pages(unittest.TestCase):
             subprocess.run(
                 [sys.executable, str(TOOLS / "build.py"), PROGRAM, str(output)], check=True, capture_output=True
             )
-            self.assertIn("<math", (output / "model.html").read_text(encoding="utf-8"))
-            self.assertIn("<code>patch_radius</code>", (output / "parameters.html").read_text(encoding="utf-8"))
+            model, parameters = (
+                (output / f"{name}.html").read_text(encoding="utf-8") for name in ("model", "parameters")
+            )
+            self.assertIn("<math", model)
+            self.assertIn("∇<sub>Γ</sub>·u", model)
+            self.assertIn("<code>patch_radius</code>", parameters)
+            self.assertIn("<td>&gt; 0 and ≤\N{NO-BREAK SPACE}10<sup>5</sup></td>", parameters)
+            self.assertNotIn("<col ", parameters)  # widths that would squeeze the keys
             for page in output.rglob("*.html"):
                 text = page.read_text(encoding="utf-8")
                 self.assertNotRegex(text, r'(src|href)="https?://(?!orcid|doi)[^"]*\.(js|css|png)"', page.name)
                 for target in re.findall(r'(?:src|href)="([^":#]+)["#]', text):
                     if not target.startswith("../.."):
                         self.assertTrue((page.parent / target).exists(), f"{page.name}: {target}")
+
+
+@unittest.skipUnless(shutil.which("pandoc"), "pandoc is not installed (Debian package pandoc)")
+class Typography(unittest.TestCase):
+    """Plain-text notation, and names that only look like it."""
+
+    def test_scripts(self):
+        for text, wanted in (
+            ("r_c²; P_θθ ∂_zψ", "r<sub>c</sub>²; P<sub>θθ</sub> ∂<sub>z</sub>ψ"),
+            ("W'(c)/ε_c, b_c/(b_c", "W'(c)/ε<sub>c</sub>, b<sub>c</sub>/(b<sub>c</sub>"),
+            ("u^{n+1}·∇φ d^(−1/2) s^-1", "u<sup>n+1</sup>·∇φ d<sup>−1/2</sup> s<sup>−1</sup>"),
+            ("cell_size neck_radius_nm 2^ _x a_b_c", "cell_size neck_radius_nm 2^ _x a_b_c"),
+            ("`r_c`", "<code>r_c</code>"),
+        ):
+            with self.subTest(text):
+                command = ["pandoc", "--from=gfm", "--to=html5", f"--lua-filter={TOOLS / 'typography.lua'}"]
+                found = subprocess.run(command, input=text, text=True, check=True, capture_output=True).stdout
+                self.assertEqual(found.strip(), f"<p>{wanted}</p>")
 
 
 class Checker(unittest.TestCase):
