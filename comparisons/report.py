@@ -42,6 +42,7 @@ def report_html(a, b, metrics, plots, directory):
         readout_heads="".join(
             f'<th scope="col" class="ink-{key}">{escaped(label)}</th>' for key, label in zip("ab", labels)
         ),
+        cards=card_section(cards(metrics)),
         legend=legend(labels),
         metrics_table=metrics_table(metrics, labels),
         times_table=times_table(metrics["times"]),
@@ -56,7 +57,7 @@ def report_html(a, b, metrics, plots, directory):
         heading=escaped(f"{labels[0].capitalize()} and {labels[1]}"),
         subtitle=subtitle(a, b, metrics),
         warnings=warnings(metrics["warnings"]),
-        cards=cards(metrics),
+        cards="",
         sections=sections,
         origin="from " + " and ".join(f"<code>{escaped(str(run.directory))}</code>" for run in (a, b)),
         scripts=SCRIPTS,
@@ -80,12 +81,17 @@ def page(command, title, heading, subtitle, warnings, cards, sections, origin, s
         subtitle=subtitle,
         style=source("report.css") + colours,
         warnings=warnings,
-        cards=f'<section aria-label="Key numbers"><dl class="cards">{cards}</dl></section>' if cards else "",
+        cards=card_section(cards),
         sections=sections,
         origin=origin,
         data=data,
         script="\n".join(source(name) for name in scripts),
     )
+
+
+def card_section(cards):
+    """The section of the key numbers; empty without any."""
+    return f'<section aria-label="Key numbers"><dl class="cards">{cards}</dl></section>' if cards else ""
 
 
 def filled(template, **values):
@@ -155,7 +161,7 @@ def warnings(found):
 
 
 def cards(metrics):
-    """The key numbers on top."""
+    """The key numbers."""
     labels = [metrics["runs"][key]["label"] for key in "ab"]
     budding, found = metrics["budding"], metrics["summary"]
     relative = (

@@ -3,10 +3,12 @@
 const view = membraneView(document.getElementById("membranes"));
 const outlines = document.getElementById("show-outlines");
 const arrows = document.getElementById("show-arrows");
+const arrowNote = document.getElementById("arrow-note");
 const showReadout = startReadout();
 let moveCursors = [];
 
 function show(frame) {
+  arrowNote.hidden = !arrows.checked;
   view.draw(frame, { outlines: outlines.checked, arrows: arrows.checked });
   showReadout(frame);
   for (const move of moveCursors) move(report.times[frame]);
@@ -26,7 +28,7 @@ document.addEventListener("keydown", (event) => {
   const box = { v: arrows, o: outlines }[event.key];
   if (box && !event.ctrlKey && !event.altKey && !event.metaKey) box.click();
 });
-document.getElementById("arrow-note").textContent =
+arrowNote.textContent =
   `(logarithmic: longest ${numberText(report.arrows.fastest)} nm/µs, none up to ${report.arrows.slowest})`;
 window.addEventListener("resize", redraw);
 startTheme(redraw);

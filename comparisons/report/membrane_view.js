@@ -3,7 +3,7 @@
 /** A view on `canvas`; returns {draw(frame, {outlines, arrows}), resize()}. */
 function membraneView(canvas) {
   const context = canvas.getContext("2d");
-  const margin = { left: 46, right: 14, top: 8, bottom: 44 };
+  const margin = { left: 58, right: 14, top: 8, bottom: 44 };
   const [lowest, highest] = report.heightRange;
   let scale = 1;  // CSS pixels per nm
   let centre = 0;  // x of the axis
@@ -12,7 +12,7 @@ function membraneView(canvas) {
   function resize() {
     const width = canvas.clientWidth;
     const byWidth = (width - margin.left - margin.right) / (2 * report.rim);
-    const byHeight = Math.max(300, 0.62 * window.innerHeight) / (highest - lowest);
+    const byHeight = Math.max(300, 0.55 * window.innerHeight) / (highest - lowest);
     scale = Math.min(byWidth, byHeight);
     centre = margin.left + (width - margin.left - margin.right) / 2;
     const height = Math.round(scale * (highest - lowest) + margin.top + margin.bottom);
@@ -122,7 +122,7 @@ function membraneView(canvas) {
       context.fillText(z.toFixed(0), toX(-report.rim) - 8, toY(z));
     }
     context.save();
-    context.translate(toX(-report.rim) - 36, (toY(lowest) + toY(highest)) / 2);
+    context.translate(toX(-report.rim) - 46, (toY(lowest) + toY(highest)) / 2);
     context.rotate(-Math.PI / 2);
     context.textAlign = "center";
     context.fillText("z (nm)", 0, 0);

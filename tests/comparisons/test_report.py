@@ -1,5 +1,6 @@
 """report.html in a real browser, opened from a file."""
 
+import re
 import subprocess
 import sys
 import tempfile
@@ -151,6 +152,31 @@ class Report(unittest.TestCase):
         for width in (400, 800, 1366):
             self.browser.resize(width, 800)
             self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
+
+    def test_the_picture_is_on_the_first_screen(self):
+        """Of a laptop and of a projector, below the page's name and one warning."""
+        self.assertEqual(self.browser.evaluate("document.querySelectorAll('.warnings li').length"), 1)
+        for width in (1366, 1024):
+            self.browser.resize(width, 768)
+            self.browser.open(self.report, READY)
+            box = self.browser.evaluate(
+                "(() => { const b = document.getElementById('membranes').getBoundingClientRect();"
+                " return [b.top, b.bottom, b.width]; })()"
+            )
+            self.assertGreater(box[0], 0)
+            self.assertLess(box[1], 768)
+            self.assertGreater(box[2], 0.55 * width)
+
+    def test_the_bench_counts_every_picture(self):
+        bench = locations.ROOT / "bench" / "page.py"
+        process = subprocess.run(
+            [sys.executable, str(bench), str(self.report), "--repeats", "1"], capture_output=True, text=True
+        )
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        found = dict(re.findall(r"^(\S.*?) {2,}([\d.]+)", process.stdout, re.M))
+        self.assertEqual(float(found["size, MB"]), round(self.report.stat().st_size / 1e6, 2))
+        self.assertEqual(float(found["pictures"]), self.browser.evaluate(f"Number({SLIDER}.max)") + 1)
+        self.assertGreater(float(found["pictures a second"]), 0)
 
     def test_every_control_has_a_name(self):
         unnamed = self.browser.evaluate(

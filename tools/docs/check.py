@@ -17,7 +17,7 @@ from pathlib import Path
 from pages import ROOT, blocks, pages
 
 #: What the scratch directory shares with the project, and most seconds a block may take.
-SHARED = ("cases", "python", "comparisons", "tests", "docs")
+SHARED = ("bench", "cases", "python", "comparisons", "tests", "docs")
 TIME_LIMIT = 600
 
 #: Directory below the scratch directory with the Python that the build found, which has numpy and h5py.
