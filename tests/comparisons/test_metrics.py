@@ -115,9 +115,11 @@ class DifferentRuns(unittest.TestCase):
 
     def test_case_differences_are_warnings(self):
         a = self.run_with("a", [0.0, 0.1])
-        b = self.run_with("b", [0.0, 0.1], molecules__patch_radius=40.0, phase_field__epsilon=0.85)
+        b = self.run_with("b", [0.0, 0.1], molecules__patch_radius=40.0, phase_field__epsilon=0.85, time__end=0.3)
         metrics = compare_runs(a, b, LABELS)
-        self.assertEqual(metrics["case_differences"], [{"key": "molecules.patch_radius", "a": 36.0, "b": 40.0}])
+        radius, end = metrics["case_differences"]
+        self.assertEqual(radius, {"key": "molecules.patch_radius", "a": 36.0, "b": 40.0})
+        self.assertEqual((end["key"], end["b"]), ("time.end", 0.3))  # shown among the parameters
         self.assertEqual(metrics["warnings"], ["the cases differ in molecules.patch_radius: 36.0 (A), 40.0 (B)"])
 
     def test_unfinished_run_is_a_warning(self):
