@@ -17,15 +17,15 @@ from engines import tiny_run
 
 
 class EngineFiles(unittest.TestCase):
-    def check(self, engine):
-        directory = tiny_run(self, engine, "time.end=1e-4", "output.field_interval=0", "output.shape_interval=5e-5")
+    def check(self, name):
+        directory = tiny_run(self, name, "time.end=1e-4", "output.field_interval=0", "output.shape_interval=5e-5")
         with open(directory / "history.csv", newline="", encoding="utf-8") as file:
             header = next(csv.reader(file))
         self.assertEqual(header[: len(REQUIRED_COLUMNS)], list(REQUIRED_COLUMNS))
         with h5py.File(directory / "shapes.h5") as file:
             self.assertEqual(set(file["shapes/000000"]), set(FIELDS))
         run = endoflow.load(directory)
-        self.assertEqual(run.engine, engine)
+        self.assertEqual(run.engine, name.split(",")[0])
         np.testing.assert_allclose(run.shape_times, [0, 5e-5, 1e-4], rtol=1e-9)
         self.assertNotIn(None, run.history_units.values())
         self.assertEqual(run.parameters["molecules"]["patch_radius"], 36.0)
@@ -38,6 +38,9 @@ class EngineFiles(unittest.TestCase):
 
     def test_phase_field(self):
         self.check("phase-field")
+
+    def test_phase_field_scheme_paper(self):
+        self.check("phase-field,paper")
 
 
 if __name__ == "__main__":
