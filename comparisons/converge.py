@@ -27,7 +27,9 @@ def parsed(arguments):
     parser = case_parser("converge", "Compare phase-field runs of decreasing ε with the sharp membrane.")
     parser.add_argument("--epsilon", metavar="E1,E2,...", required=True, help="values of phase_field.epsilon in nm")
     parser.add_argument(
-        "--cells-per-epsilon", metavar="X", help="phase_field.cell_size = ε/X (default: the case's ratio)"
+        "--cells-per-epsilon",
+        metavar="X",
+        help="phase_field.cell_size = ε/X (default: the case's ratio, or the scheme's)",
     )
     parser.add_argument(
         "--times", metavar="T1,T2,...", help="times of the comparison in µs (default: four, evenly chosen)"
@@ -102,9 +104,7 @@ def write_results(sharp, diffuse, times, output):
     pairs = [(member, runs[member.name]) for member in diffuse if member.name in runs]
     if sharp.name not in runs or not pairs:
         raise StudyError(f"nothing to compare: {problems[0]}", RUN_FAILED)
-    kept = [
-        DiffuseRun(*(m.parameters["phase_field"][key] for key in ("epsilon", "cell_size")), run) for m, run in pairs
-    ]
+    kept = [DiffuseRun(member.parameters["phase_field"]["epsilon"], run) for member, run in pairs]
     metrics = study_metrics(runs[sharp.name], kept, times)
     if not metrics["records"]:
         raise StudyError("nothing to compare: no run covers the times asked for; choose other --times", BAD_INPUT)

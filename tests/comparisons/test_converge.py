@@ -3,10 +3,12 @@
 import csv
 import json
 import unittest
+from types import SimpleNamespace
 
 import locations  # noqa: F401
 from studies import StudyTest
 
+from convergence import DiffuseRun
 from study_plots import spread
 
 EPSILON = "1.2,2.4,0.85,1.7"
@@ -99,6 +101,18 @@ class Converge(StudyTest):
             with self.subTest(arguments):
                 self.assert_one_line(self.call("converge", "case.toml", *arguments), 2, message)
         self.assertEqual(self.runs(), [])
+
+
+class CellSize(unittest.TestCase):
+    def test_what_the_run_used(self):
+        """The case's; what the scheme chose where the case leaves it to the scheme; nothing where the run does not say it."""
+        for chosen, notes, wanted in (
+            (0.6, {"cell_size_nm": 0.7}, 0.6),
+            (0, {"cell_size_nm": 1.6}, 1.6),
+            (0, {}, None),
+        ):
+            run = SimpleNamespace(parameters={"phase_field": {"cell_size": chosen}}, record={"notes": notes})
+            self.assertEqual(DiffuseRun(1.2, run).cell_size, wanted)
 
 
 class Labels(unittest.TestCase):

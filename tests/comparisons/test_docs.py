@@ -51,6 +51,11 @@ class Pages(unittest.TestCase):
         names = {str(page.relative_to(locations.ROOT / "docs")) for page in pages()}
         self.assertEqual(sorted(name for name in names - linked - {"index.md"} if not name.startswith("results/")), [])
 
+    def test_every_case_is_listed(self):
+        text = (locations.ROOT / "docs" / "case-files.md").read_text(encoding="utf-8")
+        cases = sorted(path.name for path in (locations.ROOT / "cases").iterdir() if path.is_file())
+        self.assertEqual([name for name in cases if f"`{name}`" not in text], [])
+
     @unittest.skipUnless(PROGRAM and Path(PROGRAM).exists(), "ENDOFLOW_PROGRAM names no program")
     def test_every_command_parses(self):
         process = subprocess.run(

@@ -77,6 +77,8 @@ def main(program, output):
         pandoc(page.read_text("utf-8"), output / f"{name}.html", title(page), navigation(entries, name, depth), depth)
     pandoc(parameters_page(program), output / f"{PARAMETERS}.html", "Parameters", navigation(entries, PARAMETERS, 0), 0)
     shutil.copytree(ROOT / "docs" / "images", output / "images", dirs_exist_ok=True)
+    for table in (ROOT / "docs").rglob("*.csv"):
+        shutil.copy(table, output / table.relative_to(ROOT / "docs"))
     shutil.copy(HERE / "page.css", output / "page.css")
     if MATH_FONT.exists():
         shutil.copy(MATH_FONT, output / "math.ttf")
