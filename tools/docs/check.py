@@ -18,7 +18,7 @@ from pages import ROOT, blocks, pages
 
 #: What the scratch directory shares with the project, and most seconds a block may take.
 SHARED = ("bench", "cases", "python", "comparisons", "tests", "docs")
-TIME_LIMIT = 600
+TIME_LIMIT = 1800
 
 #: Directory below the scratch directory with the Python that the build found, which has numpy and h5py.
 TOOLS = ".tools"
