@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
 from sweep_plots import LOOKS  # noqa: E402
 
 from . import patch_sweep  # noqa: E402
-from .item import Printed, Result, not_run_remarks, quick_remark, text  # noqa: E402
+from .item import PHASE_FIELD, Printed, Result, not_run_remarks, quick_remark, text  # noqa: E402
 from .patch_sweep import best, of_engine  # noqa: E402
 
 TITLE = "Fig. 7: budding time by patch radius"
@@ -39,7 +39,8 @@ def draw(rows):
         left.plot(missing, [0.03] * len(missing), "x", color=look["color"], transform=left.get_xaxis_transform())
     left.axvline(PAPER_FASTEST, color="#333333", linewidth=1, linestyle=":", label="paper: fastest")
     right.axvline(PAPER_DIAMETER, color="#333333", linewidth=1, linestyle=":", label="paper: fastest")
-    left.set(xlabel="patch radius (nm)", ylabel="budding time (µs)", ylim=(0, None))
+    left.set(xlabel="patch radius (nm)", ylabel="budding time (µs)")
+    left.set_ylim(0, 1.05 * left.get_ylim()[1])  # room for the highest markers
     right.set(xlabel="lateral diameter at budding (nm)")
     left.set_title("Neck radius falls below 5 nm")
     left.legend()
@@ -87,8 +88,14 @@ def result(runs, quick):
         "The fastest radius comes from the parabola through the three lowest points. The minimum is flat: on the sharp "
         "membrane 36, 38 and 40 nm differ by less than one per cent. The paper does not say which radii it ran; it names 36 nm, "
         "and the diameter it gives with it is that of our 36 nm bud at its budding time.",
-        "How far the paper's layer of 1.2 nm, a quarter of the neck radius that counts as budding, shifts the minimum is what "
-        "the phase-field rows show.",
+        *(
+            [
+                "How far the paper's layer of 1.2 nm, a quarter of the neck radius that counts as budding, shifts the minimum is "
+                "what the phase-field rows show."
+            ]
+            if PHASE_FIELD in engines
+            else []
+        ),
         "Crosses: runs whose neck never falls below 5 nm.",
         *quick_remark(quick),
         *not_run_remarks(runs),

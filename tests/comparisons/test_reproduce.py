@@ -54,6 +54,7 @@ class Reproduce(StudyTest):
         process = self.reproduce("fig6", "fig7", "--engine", "boundary-integral", "--until", "0.5")
         self.assertEqual((process.returncode, process.stderr), (0, ""))
         self.assertEqual(self.runs(), [], "runs that went on longer serve as well")
+        self.assertNotIn("phase-field rows", self.page("fig7"), "there are none")
         self.reproduce("figA2", "--until", "1")
         left = [
             f"p/runs/standard,constitutive_law={law}/boundary-integral fresh" for law in ("coarse-grained", "lumped")
