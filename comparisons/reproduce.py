@@ -23,9 +23,7 @@ def parsed(arguments):
     parser = study_parser("reproduce", "Reproduce figures and tables of the paper.", "out/paper")
     parser.add_argument("items", metavar="ITEM", nargs="+", choices=(*NAMES, "all"), help=", ".join((*NAMES, "all")))
     extent = parser.add_mutually_exclusive_group()
-    extent.add_argument(
-        "--quick", action="store_true", help="phase-field runs with a thick layer and short: all in half an hour"
-    )
+    extent.add_argument("--quick", action="store_true", help="few and short phase-field runs: all in half an hour")
     extent.add_argument("--full", action="store_true", help="the paper's layer and times (the default); many hours")
     parser.add_argument(
         "--engine", choices=("boundary-integral", "phase-field", "both"), default="both", help="default: %(default)s"

@@ -21,9 +21,7 @@ LINES = {"boundary-integral": "-", "phase-field": (0, (4, 2))}
 def history_names(titles, engines):
     """Names of the lines: {(run name, engine): text} from {run name: title}."""
     return {
-        (name, engine): f"{title}, {style.ENGINE_NAMES[engine]}"
-        for name, title in titles.items()
-        for engine in engines
+        (name, engine): f"{title}, {style.ENGINE_NAMES[engine]}" for name, title in titles.items() for engine in engines
     }
 
 
