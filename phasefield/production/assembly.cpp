@@ -57,7 +57,7 @@ class HistoryFields {
         cell->get_dof_values(history_->solutions->front(), values_);
         field(distance, box, psi_);
         cell->get_dof_values(*history_->predictor, values_);
-        field(distance, box, predicted_);
+        field(distance, box, predicted_, Derivatives::second);
         for (std::size_t q = 0; q < points.size(); ++q) {
             const double well = layer_profile(psi_.value[q], step_->numerics.epsilon).squared_well;
             const double w = well / (well + last_normal_below);
@@ -65,13 +65,15 @@ class HistoryFields {
             const double length = std::max(std::hypot(r, z), shortest_gradient);
             points[q].normal_r = r / length;
             points[q].normal_z = z / length;
+            points[q].change_r = (r * predicted_.rr[q] + z * predicted_.rz[q]) / length;
+            points[q].change_z = (r * predicted_.rz[q] + z * predicted_.zz[q]) / length;
         }
     }
 
   private:
-    void field(unsigned int component, const CellBox& box, ScalarField& out) {
+    void field(unsigned int component, const CellBox& box, ScalarField& out, Derivatives order = Derivatives::first) {
         component_values(*space_, component, values_, coefficients_);
-        evaluate(bases_.at(space_->degrees[component]), box, coefficients_, Derivatives::first, out);
+        evaluate(bases_.at(space_->degrees[component]), box, coefficients_, order, out);
     }
 
     void add_past(const CellBox& box, double weight, std::vector<PointHistory>& points) {
@@ -82,10 +84,10 @@ class HistoryFields {
         field(velocity_z, box, u_z_);
         for (std::size_t q = 0; q < points.size(); ++q) {
             const auto layer = layer_profile(psi_.value[q], step_->numerics.epsilon);
-            const double surface = layer.delta + surface_floor;
+            const double density = membrane_density(layer, step_->weight);
             points[q].distance += weight * psi_.value[q];
-            points[q].molecules += weight * surface * c_.value[q];
-            points[q].stretching += weight * surface * s_.value[q];
+            points[q].molecules += weight * density * c_.value[q];
+            points[q].stretching += weight * density * s_.value[q];
             points[q].velocity_r += weight * u_r_.value[q];
             points[q].velocity_z += weight * u_z_.value[q];
         }
@@ -109,8 +111,10 @@ EquationPattern::EquationPattern(const Parameters& p, const BendingModel& model)
     PointHistory past;
     past.normal_r = 0.6;
     past.normal_z = 0.8;
-    const auto rows =
-        point_equations(fields_from<FeatureDual>(values), 3.0, past, {1.0, p.phase_field, p.fluid, p.molecules}, model);
+    past.change_r = 0.3;
+    past.change_z = 0.2;
+    const auto rows = point_equations(fields_from<FeatureDual>(values), 3.0, past,
+                                      {1.0, p.phase_field, p.fluid, p.molecules, {}}, model);
     couplings.fill(dealii::DoFTools::none);
     for (unsigned int f = 0; f < n_fields; ++f) {
         couplings(f, f) = dealii::DoFTools::always;

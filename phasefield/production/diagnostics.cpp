@@ -64,21 +64,21 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
             const double r = box.r0 + box.hr * quadrature.point(q)[0];
             const double w = two_pi * quadrature.weight(q) * box.hr * box.hz * r;
             const auto layer = layer_profile(psi.value[q], numerics.epsilon);
-            const double gradient = std::hypot(psi.r[q], psi.z[q]), surface = layer.delta + surface_floor;
+            const double gradient = std::hypot(psi.r[q], psi.z[q]), density = membrane_density(layer, step.weight);
             const double length = std::hypot(gradient, gradient_floor);
             const auto bending = stiffness_of(c.value[q], model);
             const double K = b.value[q] / bending.beta;
-            const double nu = layer_viscosity(layer.phi, step.fluid, numerics.viscosity_mean);
+            const double nu = layer_viscosity(layer.phi, step.fluid, step.weight, numerics.viscosity_mean);
             const double hoop = ur.value[q] / r, shear = ur.z[q] + uz.r[q];
             const double along = (psi.r[q] * lambda.r[q] + psi.z[q] * lambda.z[q]) / length;
             const double leak = numerics.tension_leak * std::pow(layer.phi, 4);
             sums[0] += w * layer.delta;
-            sums[1] += w * surface * c.value[q];
-            sums[2] += w * surface * s.value[q];
+            sums[1] += w * density * c.value[q];
+            sums[2] += w * density * s.value[q];
             sums[3] += w * 0.5 * layer.delta * bending.beta * K * K;
             sums[4] += w * nu * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
             if (step.fluid.dynamics == Dynamics::geometric)
-                sums[5] += w * step.fluid.normal_mobility * g.value[q] * g.value[q] * surface;
+                sums[5] += w * step.fluid.normal_mobility * g.value[q] * g.value[q] * density;
             sums[6] += w * (numerics.tension_alignment * (layer.squared_well + alignment_floor) * along * along +
                             leak * (lambda.r[q] * lambda.r[q] + lambda.z[q] * lambda.z[q]));
             if (std::abs(layer.phi) > layer_edge) continue;

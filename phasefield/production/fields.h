@@ -34,9 +34,12 @@ using Fields = std::array<AtPoint<Number>, n_fields>;
 /// Polynomial degrees in the order of Field.
 std::vector<unsigned int> field_degrees(const PhaseFieldParameters& parameters);
 
-/// Closes the constraints (values of the increments): u_r = 0 on the axis; on r = R u_z = 0, ψ fixed and no G in the
-/// pin band, and s = 1. λ = 0 at the rim is natural. Without flow (geometric dynamics) u, p and λ are switched off;
-/// without inextensibility λ is.
+/// Closes the constraints (values of the increments): u_r = 0 on the axis; on r = R s = 1, u_z = 0 in the pin band, ψ
+/// fixed and no G across the whole layer. λ = 0 at the rim is natural. Without flow (geometric dynamics) u, p and λ are
+/// switched off; without inextensibility λ is.
 void close_constraints(Space& space, const Parameters& parameters);
+
+/// Sets those values: extrapolation in time would let the smallest deviation grow.
+void impose_boundary_values(const Space& space, const Parameters& parameters, Vector& vector);
 
 }  // namespace endoflow::phasefield::production

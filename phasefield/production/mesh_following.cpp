@@ -72,6 +72,7 @@ void ProductionScheme::follow(const MembraneCurve& curve) {
         if (after.molecules > 0)
             scale_component(space_, molecule_density, integrals_.molecules / after.molecules, solution);
         scale_component(space_, membrane_stretch, integrals_.stretching / after.stretching, solution);
+        impose_boundary_values(space_, parameters_, solution);
     }
     integrals_ = present();
 }

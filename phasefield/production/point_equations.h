@@ -4,6 +4,7 @@
 
 #include "phasefield/production/dual.h"
 #include "phasefield/production/fields.h"
+#include "phasefield/production/membrane_weight.h"
 #include "phasefield/weak_forms/bending.h"
 #include "shared/model/double_well.h"
 
@@ -15,20 +16,21 @@ namespace endoflow::phasefield::production {
 //   δ(ψ) = 3 (1 − φ²)²/(4√2 ε),  ∫δ dψ = 1,    H(ψ) = (3φ − φ³)/4,  H' = δ,
 //   K = h + C,  h = Δψ + √2 φ (1 − |∇ψ|²)/ε,   E = ∫ ½ β δ K² dx,   b = β K.
 //
-// This is (D) with φ = tanh(ψ/(√2 ε)) put in. δ weighs everything that lives on the membrane (tension, molecules,
-// stretching, the motion of ψ, the step of the viscosity), so that the layer's first-order effects cancel: what remains
-// is O(ε²). The force on the fluid is δ G ∇ψ + e ∇c, where δ G is the variation of the discrete energy with respect to
-// ψ, and ψ moves with the same weight δ: then the work of the force is exactly the energy's change. Without that,
-// motions at the scale of the cells gain energy and grow.
+// This is (D) with φ = tanh(ψ/(√2 ε)) put in. One weight δ_m (membrane_weight.h) weighs everything that lives on the
+// membrane (tension, molecules, stretching, the motion of ψ, the step of the viscosity), so that the layer's
+// first-order effects cancel: what remains is O(ε²). The force on the fluid is δ_m (G ∇ψ + e ∇c), where δ_m G is the
+// variation of the discrete energy with respect to ψ, and ψ and c move with the same weight: then the work of the force
+// is exactly the energy's change. Without that, motions at the scale of the cells gain energy and grow.
 
 /// What is known at a point besides the iterate: Σ_j a_j y(t_j) of the past for every quantity with a time derivative,
-/// and the normal at which alignment aims.
+/// and of the predicted ψ the normal, at which alignment aims, and how ∇ψ changes along it.
 struct PointHistory {
     double distance = 0;    // of ψ
-    double molecules = 0;   // of δ c
-    double stretching = 0;  // of δ s
+    double molecules = 0;   // of δ_m c
+    double stretching = 0;  // of δ_m s
     double velocity_r = 0, velocity_z = 0;
-    double normal_r = 0, normal_z = 0;  // ∇ψ/|∇ψ|
+    double normal_r = 0, normal_z = 0;  // n = ∇ψ/|∇ψ|
+    double change_r = 0, change_z = 0;  // n·∇∇ψ [1/nm]: 0 where ψ is a distance
 };
 
 /// Numbers of one step.
@@ -37,14 +39,16 @@ struct StepNumbers {
     PhaseFieldParameters numerics;
     FluidParameters fluid;
     MoleculeParameters molecules;
+    MembraneWeight weight;
 };
 
 inline constexpr double surface_floor = 1e-8;        // [1/nm] added to δ, so that G, c and s are defined everywhere
 inline constexpr double energy_floor = 1e-4;         // f of the energy's weight as part of max δ
 inline constexpr double energy_norm = 1.0004489587;  // 1/∫ δ²/(δ + f) dψ
 inline constexpr double moment_floor = 4e-5;         // [nm] continues b smoothly where the energy has no weight
-inline constexpr double distance_floor = 2e-8;       // part of (1 − φ²)² that moves ψ far from the layer
 inline constexpr double force_alignment = 20;        // [ε²] keeps G constant along the normal
+inline constexpr double moment_alignment = 20;       // [ε²] the same for b
+inline constexpr double step_alignment = 20;         // [ε² per step] the same for c, s and ψ
 inline constexpr double profile_floor = 1e-5;        // the same for the flux that keeps |∇ψ| = 1
 inline constexpr double alignment_floor = 1e-4;      // the same for λ
 inline constexpr double far_smoothing = 1.02;        // 1/|∇ψ| far from the layer, where ψ solves a Poisson equation
@@ -69,10 +73,10 @@ LayerProfile<Number> layer_profile(const Number& psi, double epsilon) {
     return {phi, (inverse_sqrt2 / epsilon) * well, delta, (-2 / (inverse_sqrt2 * epsilon)) * phi * delta, squared};
 }
 
-/// H(ψ) from φ: −½ … ½.
+/// δ_m [1/nm] plus a floor: what lives on the membrane is defined everywhere.
 template <class Number>
-Number layer_indicator(const Number& phi) {
-    return 0.25 * phi * (3.0 - phi * phi);
+Number membrane_density(const LayerProfile<Number>& layer, const MembraneWeight& w) {
+    return layer.delta * (w.constant + w.square * (layer.phi * layer.phi)) + surface_floor;
 }
 
 /// β, C and their derivatives with respect to c as functions of c.
@@ -106,19 +110,11 @@ Number inverse_root(const Number& x) {
     return chain(x, f, -0.5 * f / value_of(x));
 }
 
-/// ν(ψ) [pN µs/nm²]. The arithmetic mean steps with H, so that its step matches the layer's tension.
-template <class Number>
-Number layer_viscosity(const Number& phi, const FluidParameters& fluid, ViscosityMean mean) {
-    const double nu1 = fluid.viscosity_extracellular, nu2 = fluid.viscosity_intracellular;
-    const Number outside = 0.5 + layer_indicator(phi);
-    if (mean == ViscosityMean::harmonic) return 1.0 / (1 / nu2 + (1 / nu1 - 1 / nu2) * outside);
-    return nu2 + (nu1 - nu2) * outside;
-}
-
 /// What the rows share.
 template <class Number>
 struct PointGeometry {
     LayerProfile<Number> layer;
+    Number surface, density;                                        // δ, δ_m [1/nm], with floors
     Number normal_r, normal_z, squared_gradient, inverse_gradient;  // n = ∇ψ/|∇ψ|; |∇ψ|²; 1/|∇ψ|
 };
 
@@ -149,15 +145,22 @@ void add_alignment(const AtPoint<Number>& y, const PointHistory& past, const Num
     row.z += flux * past.normal_z;
 }
 
+/// D of G [nm²] times δ.
+template <class Number>
+Number force_diffusivity(const PointGeometry<Number>& p, double epsilon) {
+    return (force_alignment * epsilon * epsilon) * p.surface;
+}
+
 /// The bending energy as a functional of ψ, the moment b and c whose stationary value over b is E:
 ///
-///   E = ∫ w b h + w (b C − b²/(2 β)) dx,   h = Δψ + √2 φ (1 − |∇ψ|²)/ε,   w the weight above,
+///   E = ∫ w b h + w (b C − b²/(2 β)) − ½ D δ (∇ψ·∇b)² dx,   h = Δψ + √2 φ (1 − |∇ψ|²)/ε,   w the weight above,
 ///
-/// the Laplacian of ψ integrated by parts. Its derivatives with respect to b, ψ and c are the rows of b and of the
+/// the Laplacian of ψ integrated by parts. The last term keeps b constant along the normal: a sharp membrane has one
+/// curvature, not one for each level set. Its derivatives with respect to b, ψ and c are the rows of b and of the
 /// normal force G and the force e ∇c, so that the discrete equations obey the energy law. G is kept constant along the
 /// normal: what varies there is the force that keeps the profile, which the profile's relaxation takes over. Acting on
 /// the fluid it would drive a flow within the layer that the relaxation undoes all the time.
-/// Returns e [pN/nm²].
+/// Returns e [pN/nm].
 template <class Number>
 Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const BendingModel& model, double epsilon,
                    const PointHistory& past, Fields<Number>& row) {
@@ -172,13 +175,19 @@ Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     row[moment] = {w.value * (K - m.curvature) - strength * defect + w.first * p.squared_gradient,
                    w.value * psi.r + smoothing * b.r, w.value * psi.z + smoothing * b.z};
     const Number twist = 2.0 * (w.first + scale * strength) * b.value;
-    row[normal_force] = {(p.layer.delta + surface_floor) * x[normal_force].value +
+    row[normal_force] = {p.density * x[normal_force].value +
                              w.first * (psi.r * b.r + psi.z * b.z - m.curvature * b.value + density) +
                              (w.second * p.squared_gradient - turn * defect) * b.value,
                          w.value * b.r + twist * psi.r, w.value * b.z + twist * psi.z};
-    add_alignment(x[normal_force], past, force_alignment * epsilon * epsilon * (p.layer.delta + surface_floor),
-                  row[normal_force]);
-    return w.value * (b.value * m.curvature_c + 0.5 * K * K * m.beta_c);
+    add_alignment(x[normal_force], past, force_diffusivity(p, epsilon), row[normal_force]);
+    const double compliance = moment_alignment * epsilon * epsilon / model.stiffness(0).value;
+    const Number slope = psi.r * b.r + psi.z * b.z, flux = compliance * p.layer.delta * slope;
+    row[moment].r += flux * psi.r;
+    row[moment].z += flux * psi.z;
+    row[normal_force].value += (0.5 * compliance) * p.layer.delta_slope * slope * slope;
+    row[normal_force].r += flux * b.r;
+    row[normal_force].z += flux * b.z;
+    return b.value * m.curvature_c + 0.5 * K * K * m.beta_c;
 }
 
 template <class Number>
@@ -196,22 +205,26 @@ void extend_multiplier(const AtPoint<Number>& y, const PointGeometry<Number>& p,
     add_diffusion(y, -leak * (phi2 * phi2), row);
 }
 
-/// (32), (33): momentum with the forces δ G ∇ψ + e ∇c − ∇·(δ λ P), and volume. The pressure in the layer is p + δ q,
-/// q constant along the normal the multiplier of ∫δ ∇·u across the layer: p alone, continuous and quadratic, cannot
-/// follow δ on cells as wide as the layer, and the rest would drive a spurious flow.
+/// (32), (33): momentum with the forces δ_m (G ∇ψ + e ∇c) − ∇·(δ_m λ P), and volume. The diffusion of G along the
+/// normal would leave a net force on the membrane where ∇ψ changes along it, D δ ∂ₙG ∂ₙ∇ψ, which is added. The pressure
+/// in the layer is p + δ q, q constant along the normal the multiplier of ∫δ ∇·u across the layer: p alone, continuous
+/// and quadratic, cannot follow δ on cells as wide as the layer, and the rest would drive a spurious flow.
 template <class Number>
 void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Number& e, double r,
               const PointHistory& past, const StepNumbers& step, Fields<Number>& row) {
     const auto &ur = x[velocity_r], &uz = x[velocity_z], &psi = x[distance], &c = x[molecule_density];
-    const Number g = (p.layer.delta + surface_floor) * x[normal_force].value;
-    const Number nu = layer_viscosity(p.layer.phi, step.fluid, step.numerics.viscosity_mean);
+    const auto& G = x[normal_force];
+    const Number g = p.density * G.value, molecular = p.density * e;
+    const Number uneven = force_diffusivity(p, step.numerics.epsilon) * (past.normal_r * G.r + past.normal_z * G.z);
+    const Number nu = layer_viscosity(p.layer.phi, step.fluid, step.weight, step.numerics.viscosity_mean);
     const Number hoop = ur.value / r, divergence = ur.r + hoop + uz.z;
     const Number isotropic = x[pressure].value + p.layer.delta * x[pressure_layer].value;
-    const Number stretch = p.layer.delta * x[tension].value;
+    const Number stretch = p.density * x[tension].value;
     const Number shear = nu * (ur.z + uz.r) - stretch * p.normal_r * p.normal_z;
-    row[velocity_r] = {(2.0 * nu * hoop - isotropic + stretch) / r - g * psi.r - e * c.r,
-                       2.0 * nu * ur.r - isotropic + stretch * (1.0 - p.normal_r * p.normal_r), shear};
-    row[velocity_z] = {-g * psi.z - e * c.z, shear,
+    row[velocity_r] = {
+        (2.0 * nu * hoop - isotropic + stretch) / r - g * psi.r - molecular * c.r - uneven * past.change_r,
+        2.0 * nu * ur.r - isotropic + stretch * (1.0 - p.normal_r * p.normal_r), shear};
+    row[velocity_z] = {-g * psi.z - molecular * c.z - uneven * past.change_z, shear,
                        2.0 * nu * uz.z - isotropic + stretch * (1.0 - p.normal_z * p.normal_z)};
     if (step.fluid.inertia) {
         const double rho = step.fluid.density;
@@ -229,17 +242,23 @@ void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Num
 /// only defines λ far from the layer.
 template <class Number>
 void add_inextensibility(const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past, double r,
-                         const PhaseFieldParameters& numerics, Fields<Number>& row) {
+                         const StepNumbers& step, Fields<Number>& row) {
     const auto &ur = x[velocity_r], &uz = x[velocity_z], &lambda = x[tension];
     const Number& s = x[membrane_stretch].value;
     const Number stretching =
         ur.r + ur.value / r + uz.z -
         (p.normal_r * p.normal_r * ur.r + p.normal_r * p.normal_z * (ur.z + uz.r) + p.normal_z * p.normal_z * uz.z);
-    row[tension].value = p.layer.delta * (stretching - numerics.strain_relaxation * (s - 1.0));
-    extend_multiplier(lambda, p, past, numerics.tension_alignment, numerics.tension_leak, row[tension]);
+    row[tension].value = p.density * (stretching - step.numerics.strain_relaxation * (s - 1.0));
+    extend_multiplier(lambda, p, past, step.numerics.tension_alignment, step.numerics.tension_leak, row[tension]);
 }
 
-/// (35): δ ( ∂ψ/∂t + u·∇ψ ) = −(mobility) δ G, and |∇ψ| = 1 is kept by a flux along the normal, M ε δ (n·∇ψ − 1) n.
+/// A diffusivity along the normal [nm²/µs] made fast within a step: δ_m is negative in the layer's tails, where without
+/// it y would grow.
+inline double within_a_step(double diffusivity, const StepNumbers& step) {
+    return diffusivity + step_alignment * step.numerics.epsilon * step.numerics.epsilon * step.rate;
+}
+
+/// (35): δ_m ( ∂ψ/∂t + u·∇ψ ) = −(mobility) δ_m G, and |∇ψ| = 1 is kept by a flux along the normal, M ε δ (n·∇ψ − 1) n.
 /// That flux conserves ∫H, so it does not move the membrane. Far from the layer ψ solves ∇·(a ∇ψ − n) = 0 with the last
 /// normals n, a a little above 1: normals may cross there. Divided by max δ.
 template <class Number>
@@ -247,25 +266,24 @@ void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const P
                 const StepNumbers& step, Fields<Number>& row) {
     const auto& psi = x[distance];
     const double epsilon = step.numerics.epsilon, length = epsilon / (0.75 * inverse_sqrt2);  // 1/max δ
-    const Number weight = p.layer.squared_well + distance_floor;
-    const double relaxation = step.numerics.profile_relaxation * epsilon;
+    const Number weight = length * p.density;
+    const double lasting = step.numerics.profile_relaxation * epsilon, relaxation = within_a_step(lasting, step);
     const Number flux = relaxation * p.layer.squared_well * (past.normal_r * psi.r + past.normal_z * psi.z - 1.0);
-    const double far = relaxation * profile_floor;
+    const double far = lasting * profile_floor;
     Number rate =
         weight * (step.rate * psi.value + past.distance + x[velocity_r].value * psi.r + x[velocity_z].value * psi.z);
-    if (step.fluid.dynamics == Dynamics::geometric)
-        rate += (length * step.fluid.normal_mobility) * (p.layer.delta + surface_floor) * x[normal_force].value;
+    if (step.fluid.dynamics == Dynamics::geometric) rate += step.fluid.normal_mobility * weight * x[normal_force].value;
     row[distance] = {rate, flux * past.normal_r + far * (far_smoothing * psi.r - past.normal_r),
                      flux * past.normal_z + far * (far_smoothing * psi.z - past.normal_z)};
 }
 
-/// ∂(δ y)/∂t + ∇·(δ y v), v the fluid's velocity along the membrane and the level sets' own velocity across it. The
+/// ∂(δ_m y)/∂t + ∇·(δ_m y v), v the fluid's velocity along the membrane and the level sets' own velocity across it. The
 /// two differ where the profile is being restored; with the fluid's velocity alone y would grow in the layer's tails.
 template <class Number>
 void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past,
                    double weighted_past, const StepNumbers& step, AtPoint<Number>& row) {
     const auto &ur = x[velocity_r].value, &uz = x[velocity_z].value;
-    const Number density = (p.layer.delta + surface_floor) * y;
+    const Number density = p.density * y;
     const Number across =
         (step.rate * x[distance].value + past.distance) * p.inverse_gradient + p.normal_r * ur + p.normal_z * uz;
     row.value = step.rate * density + weighted_past;
@@ -273,38 +291,36 @@ void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry
     row.z = (-1.0) * density * (uz - across * p.normal_z);
 }
 
-/// (40), (41), or (39), or (14): δ c is conserved.
+/// (40), (41), or (39), or (14): δ_m c is conserved.
 template <class Number>
 void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past,
                    const StepNumbers& step, Fields<Number>& row) {
     const auto &c = x[molecule_density], &mu = x[molecule_potential];
-    const Number surface = p.layer.delta + surface_floor;
     add_transport(c.value, x, p, past, past.molecules, step, row[molecule_density]);
     const Number phi2 = p.layer.phi * p.layer.phi;
-    add_alignment(c, past, step.molecules.normal_diffusivity * surface, row[molecule_density]);
+    add_alignment(c, past, within_a_step(step.molecules.normal_diffusivity, step) * p.surface, row[molecule_density]);
     add_diffusion(c, (molecule_leak * step.molecules.normal_diffusivity) * (phi2 * phi2), row[molecule_density]);
-    row[molecule_potential].value = surface * mu.value;
+    row[molecule_potential].value = p.surface * mu.value;
     if (step.molecules.transport == Transport::cahn_hilliard) {
         const double width = step.molecules.interface_width;
         const auto well = double_well(value_of(c.value));
         add_diffusion(mu, step.molecules.mobility * p.layer.delta, row[molecule_density]);
         row[molecule_potential].value =
-            surface * mu.value - (1 / width) * p.layer.delta * chain(c.value, well.first, well.second);
+            p.surface * mu.value - (1 / width) * p.layer.delta * chain(c.value, well.first, well.second);
         add_diffusion(c, -width * p.layer.delta, row[molecule_potential]);
     } else if (step.molecules.transport == Transport::fickian) {
         add_diffusion(c, step.molecules.diffusivity * p.layer.delta, row[molecule_density]);
     }
 }
 
-/// (38): δ s is the membrane's material; where it enters at the rim s = 1.
+/// (38): δ_m s is the membrane's material; where it enters at the rim s = 1.
 template <class Number>
 void add_stretching(const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past,
                     const StepNumbers& step, Fields<Number>& row) {
     const auto& s = x[membrane_stretch];
-    const Number surface = p.layer.delta + surface_floor;
     add_transport(s.value, x, p, past, past.stretching, step, row[membrane_stretch]);
-    add_alignment(s, past, step.numerics.stretching_alignment * surface, row[membrane_stretch]);
-    add_diffusion(s, step.numerics.stretching_diffusivity * surface, row[membrane_stretch]);
+    add_alignment(s, past, within_a_step(step.numerics.stretching_alignment, step) * p.surface, row[membrane_stretch]);
+    add_diffusion(s, step.numerics.stretching_diffusivity * p.surface, row[membrane_stretch]);
 }
 
 /// All rows at one point at radius r [nm].
@@ -315,12 +331,18 @@ Fields<Number> point_equations(const Fields<Number>& x, double r, const PointHis
     const auto& psi = x[distance];
     const Number squared = psi.r * psi.r + psi.z * psi.z;
     const Number inverse = inverse_root(squared + gradient_floor * gradient_floor);
-    const PointGeometry<Number> p{layer_profile(psi.value, epsilon), psi.r * inverse, psi.z * inverse, squared,
+    const auto layer = layer_profile(psi.value, epsilon);
+    const PointGeometry<Number> p{layer,
+                                  layer.delta + surface_floor,
+                                  membrane_density(layer, step.weight),
+                                  psi.r * inverse,
+                                  psi.z * inverse,
+                                  squared,
                                   inverse};
     Fields<Number> row;
     const Number e = add_bending(x, p, model, epsilon, past, row);
     add_flow(x, p, e, r, past, step, row);
-    add_inextensibility(x, p, past, r, step.numerics, row);
+    add_inextensibility(x, p, past, r, step, row);
     add_motion(x, p, past, step, row);
     add_molecules(x, p, past, step, row);
     add_stretching(x, p, past, step, row);

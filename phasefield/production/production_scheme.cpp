@@ -13,10 +13,12 @@ namespace endoflow::phasefield::production {
 
 namespace {
 
-constexpr std::size_t highest_order = 2;
-constexpr double first_steps = 3;         // before the error can be estimated
+constexpr std::size_t highest_order = 3;
+constexpr std::size_t normal_points = 2;  // times from which the normals are extrapolated
+constexpr double first_steps = 4;         // before the error can be estimated
+constexpr double error_part = 0.2;        // of time.tolerance for one step: the errors of the steps add up
 constexpr double safety = 0.85;           // of the step
-constexpr double largest_growth = 2;      // per step
+constexpr double largest_growth = 1.5;    // per step
 constexpr double tolerated_excess = 2;    // of the error over its tolerance, beyond which a step is repeated
 constexpr double newton_part = 0.01;      // of the step's tolerance to which Newton's method converges
 constexpr int most_iterations = 12;       // of Newton's method
@@ -26,7 +28,7 @@ constexpr double largest_motion = 1.5;    // of the membrane in one step, in uni
 
 /// Largest error of the membrane's position per step [nm].
 double position_tolerance(const Parameters& p) {
-    return p.time.tolerance * p.domain.radius;
+    return error_part * p.time.tolerance * p.domain.radius;
 }
 
 }  // namespace
@@ -38,7 +40,8 @@ ProductionScheme::ProductionScheme(const Parameters& parameters, MPI_Comm commun
       space_(*mesh_, field_degrees(parameters.phase_field)),
       pattern_(parameters, model_),
       system_(communicator, "coupled"),
-      numbers_{0, parameters.phase_field, parameters.fluid, parameters.molecules},
+      numbers_{0, parameters.phase_field, parameters.fluid, parameters.molecules,
+               membrane_weight(parameters.fluid, parameters.phase_field.viscosity_mean)},
       nominal_(parameters.time.initial_step) {}
 
 namespace {
@@ -171,7 +174,7 @@ void ProductionScheme::solve(Vector& solution, const StepHistory& history) {
         std::snprintf(text, sizeof text, refactor ? " %.1e" : " (%.1e)", change);
         changes += text;
         if (!std::isfinite(change) || change > 10 * std::max(last, wanted)) break;
-        refactor = iteration > 0 && contraction > slow_contraction;
+        refactor = contraction > slow_contraction;
         last = change;
     }
     throw SolverError("newton-divergence", "Newton's method changed ψ by" + changes + " nm",
@@ -182,12 +185,15 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     const double end = time + tau;
     const auto bdf = bdf_coefficients(end, times_, order());
     numbers_.rate = bdf.rate;
-    const Vector predicted = polynomial(end, std::min(order() + 1, times_.size()));
+    Vector predicted = polynomial(end, std::min(order() + 1, times_.size()));
+    impose_boundary_values(space_, parameters_, predicted);
     trial_.reinit(predicted, true);  // assignment alone could keep the ghosts of an earlier mesh
     trial_ = predicted;
     trial_.update_ghost_values();
     predicted.update_ghost_values();
-    solve(trial_, {&solutions_, bdf.past, &predicted});
+    // Further extrapolation would amplify what little the normals turn back and forth in the layer's tails.
+    const Vector aim = polynomial(end, std::min(normal_points, times_.size()));
+    solve(trial_, {&solutions_, bdf.past, &aim});
 
     const auto measures = measure_solution(space_, model_, numbers_, solutions_.front(), predicted, trial_);
     trial_integrals_ = measures.integrals;
@@ -197,7 +203,9 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     const double error = estimated ? measures.step_difference * error_fraction(end, times_, order()) : 0;
     const double allowed = position_tolerance(parameters_);
     trial_factor_ = since_start_ < first_steps ? 1 : largest_growth;
-    if (estimated) trial_factor_ = std::min(trial_factor_, safety * std::cbrt(allowed / std::max(error, 1e-12)));
+    if (estimated)
+        trial_factor_ = std::min(
+            trial_factor_, safety * std::pow(allowed / std::max(error, 1e-12), 1 / (1 + static_cast<double>(order()))));
     if (motion > 0) trial_factor_ = std::min(trial_factor_, safety * farthest / motion);
     StepOutcome outcome{measures.diagnostics, {}, {}};
     if (!std::isfinite(measures.diagnostics.bending_energy))

@@ -35,7 +35,7 @@ Fields<double> some_point() {
 }
 
 StepNumbers numbers(const Parameters& p) {
-    return {40.0, p.phase_field, p.fluid, p.molecules};
+    return {40.0, p.phase_field, p.fluid, p.molecules, membrane_weight(p.fluid, p.phase_field.viscosity_mean)};
 }
 
 /// Reads a column of early.csv at the first row, 0.0005 µs.
@@ -75,6 +75,8 @@ TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
             PointHistory past;
             past.normal_r = 0.6;
             past.normal_z = 0.8;
+            past.change_r = 0.3;
+            past.change_z = -0.2;
             const auto x = some_point();
             Fields<Dual<n_features>> seeded;
             for (std::size_t k = 0; k < n_features; ++k) {
@@ -103,7 +105,8 @@ TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
 TEST_CASE("forces are the variation of the energy", "[production]") {
     Parameters p;
     const BendingModel model(p.membrane);
-    const double epsilon = p.phase_field.epsilon, scale = std::sqrt(2.0) / epsilon;
+    const double epsilon = p.phase_field.epsilon, scale = std::sqrt(2.0) / epsilon,
+                 compliance = moment_alignment * epsilon * epsilon / model.stiffness(0).value;
     // The integrand of the two-field energy that add_bending() documents.
     const auto energy = [&](const Fields<double>& x) {
         const auto &psi = x[distance], &b = x[Field::moment];
@@ -114,6 +117,7 @@ TEST_CASE("forces are the variation of the energy", "[production]") {
         return weight.value * (scale * layer.phi * (1 - squared) * b.value + m.curvature * b.value -
                                0.5 * b.value * b.value / m.beta - psi.r * b.r - psi.z * b.z) -
                weight.first * squared * b.value -
+               0.5 * compliance * layer.delta * std::pow(psi.r * b.r + psi.z * b.z, 2) -
                0.5 * moment_floor / model.stiffness(0).value * (b.r * b.r + b.z * b.z);
     };
     auto x = some_point();
@@ -155,6 +159,35 @@ TEST_CASE("backward differentiation is exact for polynomials of its order", "[pr
     CHECK(std::abs(solved - cubic(1.3)) ==
           Approx(std::abs(solved - guess) * error_fraction(1.3, times, 2)).epsilon(1e-12));
     CHECK(error_fraction(3, {2, 1, 0}, 2) == Approx(2.0 / 11).epsilon(1e-13));
+
+    const auto third = bdf_coefficients(1.3, times, 3);
+    CHECK(third.rate * cubic(1.3) + third.past[0] * cubic(0.9) + third.past[1] * cubic(0.7) +
+              third.past[2] * cubic(0.2) ==
+          Approx(6 * 1.3 * 1.3 - 1).epsilon(1e-13));
+    CHECK(error_fraction(4, {3, 2, 1, 0}, 3) == Approx(3.0 / 25).epsilon(1e-13));
+}
+
+TEST_CASE("the membrane's weight leaves no excess shear in the layer", "[production]") {
+    FluidParameters fluid;
+    fluid.viscosity_extracellular = 1e-3;
+    for (const double ratio : {0.1, 1.0, 1.5, 5.0, 10.0})
+        for (const ViscosityMean mean : {ViscosityMean::arithmetic, ViscosityMean::harmonic}) {
+            fluid.viscosity_intracellular = ratio * 1e-3;
+            const MembraneWeight weight = membrane_weight(fluid, mean);
+            CHECK(membrane_indicator(1.0, weight) == Approx(0.5).epsilon(1e-14));  // ∫δ_m dψ = 1
+            // Harmonic means of ratios above 7 are bounded by the smallest fluidity.
+            if (mean == ViscosityMean::harmonic && std::abs(std::log(ratio)) > std::log(6)) continue;
+            CHECK(excess_shear(weight, fluid, mean) == Approx(0).margin(1e-9));  // a root found to 1e-12
+        }
+    // Between fluids of any ratio no viscosity is below half the smaller one.
+    for (const double ratio : {1e-3, 100.0, 1e3}) {
+        fluid.viscosity_intracellular = ratio * 1e-3;
+        const auto weight = membrane_weight(fluid, ViscosityMean::arithmetic);
+        double smallest = 1;
+        for (int i = -1000; i <= 1000; ++i)
+            smallest = std::min(smallest, layer_viscosity(1e-3 * i, fluid, weight, ViscosityMean::arithmetic));
+        CHECK(smallest >= 0.4999e-3 * std::min(1.0, ratio));
+    }
 }
 
 TEST_CASE("a small bud conserves its molecules, loses energy and keeps profile and area", "[production]") {
@@ -200,21 +233,24 @@ TEST_CASE("the membrane is known at any time of the last step", "[production]") 
         times.push_back(time);
         heights.push_back(height(outcome.contour));
     }
-    // At the ends of the step it is the solution itself, within it the parabola through the last three.
+    // At the ends of the step it is the solution itself, within it the cubic through the last four.
     CHECK(height(scheme.contour_at(times[3])) == Approx(heights[3]).epsilon(1e-12));
     CHECK(height(scheme.contour_at(times[2])) == Approx(heights[2]).epsilon(1e-12));
     const double middle = 0.5 * (times[2] + times[3]);
-    const auto weights = extrapolation_weights(middle, {times[3], times[2], times[1]}, 3);
+    const auto weights = extrapolation_weights(middle, {times[3], times[2], times[1], times[0]}, 4);
     // ψ is interpolated, and its zero moves by less than 1e-6 of the height in a step.
     CHECK(height(scheme.contour_at(middle)) ==
-          Approx(weights[0] * heights[3] + weights[1] * heights[2] + weights[2] * heights[1]).epsilon(1e-8));
+          Approx(weights[0] * heights[3] + weights[1] * heights[2] + weights[2] * heights[1] + weights[3] * heights[0])
+              .epsilon(1e-8));
 }
 
-TEST_CASE("the flow's first volume rate converges with order two in the layer's thickness", "[production]") {
-    // An edge of the patch of 2.4 nm and cells of half of that, so that only ε is varied. Differences of
-    // successive values fall like ε²: by four. A quarter of that is left for O(ε⁴) and the mesh.
-    const double coarse = first_volume_rate(4.8), middle = first_volume_rate(3.4), fine = first_volume_rate(2.4);
-    CHECK(std::log2((coarse - middle) / (middle - fine)) / std::log2(std::sqrt(2.0)) == Approx(2).margin(0.5));
+TEST_CASE("the flow's first volume rate hardly depends on the layer's thickness", "[production]") {
+    // The same case in the boundary-integral engine, one step of 1e-7 µs. Measured errors: 1.0e-3 at ε = 4.8 nm and
+    // 5.5e-4 at 2.4 nm; with δ instead of δ_m as the membrane's weight they are some per cent.
+    constexpr double sharp = 4.2811e5;
+    const double thick = first_volume_rate(4.8), thin = first_volume_rate(2.4);
+    CHECK(thick == Approx(sharp).epsilon(1.5e-3));
+    CHECK(thin == Approx(sharp).epsilon(8e-4));
 }
 
 TEST_CASE("the standard case starts like the sharp model in the production scheme", "[production]") {
