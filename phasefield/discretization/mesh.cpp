@@ -9,15 +9,29 @@
 
 namespace endoflow::phasefield {
 
-std::unique_ptr<Mesh> coarse_mesh(const Parameters& p, MPI_Comm communicator) {
-    if (!(p.phase_field.cell_size > 0)) throw std::invalid_argument("coarse_mesh: the cell size has not been chosen");
-    auto mesh = std::make_unique<Mesh>(communicator, dealii::Triangulation<2>::limit_level_difference_at_vertices);
+namespace {
+
+/// Cells of the coarse mesh in the directions r and z.
+std::vector<unsigned int> coarse_cells(const Parameters& p) {
+    if (!(p.phase_field.cell_size > 0)) throw std::invalid_argument("coarse mesh: the cell size has not been chosen");
     const double size = p.phase_field.cell_size * std::pow(2.0, p.phase_field.far_refinements);
     const auto cells = [size](double length, unsigned int multiple) {
         return multiple * std::max(1u, static_cast<unsigned int>(std::lround(length / (size * multiple))));
     };
-    dealii::GridGenerator::subdivided_hyper_rectangle(*mesh, {cells(p.domain.radius, 1), cells(p.domain.height, 2)},
-                                                      dealii::Point<2>(0, 0),
+    return {cells(p.domain.radius, 1), cells(p.domain.height, 2)};
+}
+
+}  // namespace
+
+double layer_cell_size(const Parameters& p) {
+    const auto cells = coarse_cells(p);
+    return std::max(p.domain.radius / cells[0], p.domain.height / cells[1]) /
+           std::pow(2.0, p.phase_field.far_refinements);
+}
+
+std::unique_ptr<Mesh> coarse_mesh(const Parameters& p, MPI_Comm communicator) {
+    auto mesh = std::make_unique<Mesh>(communicator, dealii::Triangulation<2>::limit_level_difference_at_vertices);
+    dealii::GridGenerator::subdivided_hyper_rectangle(*mesh, coarse_cells(p), dealii::Point<2>(0, 0),
                                                       dealii::Point<2>(p.domain.radius, p.domain.height), true);
     return mesh;
 }

@@ -12,6 +12,9 @@ struct PlanePoint {
     double r, z;
 };
 
+/// The size of the cells within the layer [nm], rounded so that whole cells fill the box.
+double layer_cell_size(const Parameters& parameters);
+
 /// Coarse cells of about 2^far_refinements h, square to a few per cent; boundary ids as in `Boundary`. The number of
 /// coarse cells in z is even and the pin band's edges fall on grid lines whenever h divides them.
 std::unique_ptr<Mesh> coarse_mesh(const Parameters& parameters, MPI_Comm communicator);

@@ -17,12 +17,17 @@ double chosen_cell_size(const Parameters& p) {
 
 }  // namespace
 
+Parameters with_chosen_cells(const Parameters& parameters) {
+    Parameters chosen = parameters;
+    if (chosen.phase_field.cell_size == 0) chosen.phase_field.cell_size = chosen_cell_size(parameters);
+    return chosen;
+}
+
 std::unique_ptr<Scheme> make_scheme(const Parameters& parameters, MPI_Comm communicator) {
-    Parameters resolved = parameters;
-    if (resolved.phase_field.cell_size == 0) resolved.phase_field.cell_size = chosen_cell_size(parameters);
+    const Parameters chosen = with_chosen_cells(parameters);
     if (parameters.phase_field.scheme == PhaseFieldScheme::paper)
-        return std::make_unique<PaperScheme>(resolved, communicator);
-    return std::make_unique<production::ProductionScheme>(resolved, communicator);
+        return std::make_unique<PaperScheme>(chosen, communicator);
+    return std::make_unique<production::ProductionScheme>(chosen, communicator);
 }
 
 }  // namespace endoflow::phasefield

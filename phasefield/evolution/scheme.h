@@ -55,6 +55,9 @@ class Scheme {
     [[nodiscard]] virtual double cells() const = 0;
 };
 
+/// The parameters with the scheme's own cell size where the case leaves the choice to it (0).
+Parameters with_chosen_cells(const Parameters& parameters);
+
 /// The scheme that phase_field.scheme names.
 std::unique_ptr<Scheme> make_scheme(const Parameters& parameters, MPI_Comm communicator);
 

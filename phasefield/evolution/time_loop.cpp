@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "phasefield/discretization/mesh.h"
 #include "phasefield/evolution/clearance.h"
 #include "phasefield/evolution/history.h"
 #include "shared/support/error.h"
@@ -25,6 +26,7 @@ TimeLoop::TimeLoop(const Parameters& parameters, RunOutput& output, MPI_Comm com
       communicator_(communicator),
       scheme_(make_scheme(parameters, communicator)),
       model_(parameters.membrane) {
+    output_.note("cell_size_nm", layer_cell_size(with_chosen_cells(parameters)));
     if (output.restart_point())
         restart(*output.restart_point());
     else

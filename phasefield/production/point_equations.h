@@ -43,8 +43,8 @@ struct StepNumbers {
 };
 
 inline constexpr double surface_floor = 1e-8;        // [1/nm] added to δ, so that G, c and s are defined everywhere
-inline constexpr double energy_floor = 1e-4;         // f of the energy's weight as part of max δ
-inline constexpr double energy_norm = 1.0004489587;  // 1/∫ δ²/(δ + f) dψ
+inline constexpr double energy_floor = 1e-3;         // f of the energy's weight as part of max δ
+inline constexpr double energy_norm = 1.0036235636;  // 1/∫ δ²/(δ + f) dψ
 inline constexpr double moment_floor = 4e-5;         // [nm] continues b smoothly where the energy has no weight
 inline constexpr double force_alignment = 20;        // [ε²] keeps G constant along the normal
 inline constexpr double moment_alignment = 20;       // [ε²] the same for b
@@ -123,6 +123,7 @@ struct PointGeometry {
 template <class Number>
 struct EnergyWeight {
     Number value, first, second;
+    Number part;  // of δ
 };
 
 template <class Number>
@@ -133,7 +134,7 @@ EnergyWeight<Number> energy_weight(const LayerProfile<Number>& layer, double eps
     const double f = energy_floor * 0.75 * inverse_sqrt2 / epsilon;
     const Number inverse = 1.0 / (d + f), part = d * inverse, rest = f * inverse;
     const Number g1 = part * (part + 2.0 * rest), g2 = 2.0 * rest * rest * inverse;
-    return {energy_norm * d * part, energy_norm * g1 * d1, energy_norm * (g2 * d1 * d1 + g1 * d2)};
+    return {energy_norm * d * part, energy_norm * g1 * d1, energy_norm * (g2 * d1 * d1 + g1 * d2), energy_norm * part};
 }
 
 /// D_n ∇·(δ n n·∇y): keeps y constant along the normal, the predicted one, so that the term is linear.
@@ -153,7 +154,7 @@ Number force_diffusivity(const PointGeometry<Number>& p, double epsilon) {
 
 /// The bending energy as a functional of ψ, the moment b and c whose stationary value over b is E:
 ///
-///   E = ∫ w b h + w (b C − b²/(2 β)) − ½ D δ (∇ψ·∇b)² dx,   h = Δψ + √2 φ (1 − |∇ψ|²)/ε,   w the weight above,
+///   E = ∫ w b h + w (b C − b²/(2 β)) − ½ D w (∇ψ·∇b)² dx,   h = Δψ + √2 φ (1 − |∇ψ|²)/ε,   w the weight above,
 ///
 /// the Laplacian of ψ integrated by parts. The last term keeps b constant along the normal: a sharp membrane has one
 /// curvature, not one for each level set. Its derivatives with respect to b, ψ and c are the rows of b and of the
@@ -181,13 +182,13 @@ Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, cons
                          w.value * b.r + twist * psi.r, w.value * b.z + twist * psi.z};
     add_alignment(x[normal_force], past, force_diffusivity(p, epsilon), row[normal_force]);
     const double compliance = moment_alignment * epsilon * epsilon / model.stiffness(0).value;
-    const Number slope = psi.r * b.r + psi.z * b.z, flux = compliance * p.layer.delta * slope;
+    const Number slope = psi.r * b.r + psi.z * b.z, flux = compliance * w.value * slope;
     row[moment].r += flux * psi.r;
     row[moment].z += flux * psi.z;
-    row[normal_force].value += (0.5 * compliance) * p.layer.delta_slope * slope * slope;
+    row[normal_force].value += (0.5 * compliance) * w.first * slope * slope;
     row[normal_force].r += flux * b.r;
     row[normal_force].z += flux * b.z;
-    return b.value * m.curvature_c + 0.5 * K * K * m.beta_c;
+    return w.part * (b.value * m.curvature_c + 0.5 * K * K * m.beta_c);
 }
 
 template <class Number>

@@ -23,6 +23,7 @@ constexpr double tolerated_excess = 2;    // of the error over its tolerance, be
 constexpr double newton_part = 0.01;      // of the step's tolerance to which Newton's method converges
 constexpr int most_iterations = 12;       // of Newton's method
 constexpr double slow_contraction = 0.2;  // of the changes from one iteration to the next: then new factors
+constexpr double misleading = 0.5;        // the same: then what old factors gave is dropped
 constexpr double smallest_step = 1e-5;    // of the first one
 constexpr double largest_motion = 1.5;    // of the membrane in one step, in units of ε
 
@@ -166,13 +167,17 @@ void ProductionScheme::solve(Vector& solution, const StepHistory& history) {
             system_.apply_factors(space_, increment);
         }
         const double change = layer_increment(space_, parameters_.phase_field.epsilon, increment, solution);
-        solution += increment;
-        solution.update_ghost_values();
         const double contraction = change / last;
-        if (change <= wanted || (iteration > 0 && contraction < 0.5 && change * contraction <= 0.5 * wanted)) return;
         char text[24];
         std::snprintf(text, sizeof text, refactor ? " %.1e" : " (%.1e)", change);
         changes += text;
+        if (!refactor && !(contraction < misleading)) {
+            refactor = true;
+            continue;
+        }
+        solution += increment;
+        solution.update_ghost_values();
+        if (change <= wanted || (iteration > 0 && contraction < 0.5 && change * contraction <= 0.5 * wanted)) return;
         if (!std::isfinite(change) || change > 10 * std::max(last, wanted)) break;
         refactor = contraction > slow_contraction;
         last = change;

@@ -117,7 +117,7 @@ TEST_CASE("forces are the variation of the energy", "[production]") {
         return weight.value * (scale * layer.phi * (1 - squared) * b.value + m.curvature * b.value -
                                0.5 * b.value * b.value / m.beta - psi.r * b.r - psi.z * b.z) -
                weight.first * squared * b.value -
-               0.5 * compliance * layer.delta * std::pow(psi.r * b.r + psi.z * b.z, 2) -
+               0.5 * compliance * weight.value * std::pow(psi.r * b.r + psi.z * b.z, 2) -
                0.5 * moment_floor / model.stiffness(0).value * (b.r * b.r + b.z * b.z);
     };
     auto x = some_point();
