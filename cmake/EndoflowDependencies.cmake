@@ -1,7 +1,6 @@
 # Libraries as imported targets. Headers of libraries count as system headers: our warnings are for our code.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
-find_package(OpenMP REQUIRED)
 find_package(Boost 1.74 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)

@@ -41,7 +41,7 @@ nlohmann::ordered_json provenance(const LibraryVersions& engine_libraries) {
     libraries["hdf5"] = hdf5_version();
     return {{"version", version()},
             {"git", git_description()},
-            {"compiler", "g++ " __VERSION__},
+            {"compiler", compiler()},
             {"libraries", libraries},
             {"host", host_name()},
             {"processor", processor_name()},

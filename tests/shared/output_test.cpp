@@ -177,6 +177,11 @@ TEST_CASE("a run's directory: record, events, restart, and an earlier run that i
     CHECK(final_record["events"]["budding"]["time_us"] == 0.45);
     CHECK(final_record["parameters"]["molecules"]["patch_radius"] == 36.0);
     CHECK(final_record["provenance"]["libraries"].contains("hdf5"));
+#ifdef __clang__
+    CHECK_THAT(final_record["provenance"]["compiler"].get<std::string>(), Contains("Clang"));
+#else
+    CHECK_THAT(final_record["provenance"]["compiler"].get<std::string>(), Contains("GNU"));
+#endif
 
     RunOutput(parameters, test_engine(), root, StartMode::fresh).finish(ExitReason::done);
     CHECK(nlohmann::json::parse(content(root / "earlier/1/run.json")) == final_record);
