@@ -9,7 +9,6 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -19,6 +18,7 @@
 #include "boundary_integral/evolution/stiff_integrator.h"
 #include "boundary_integral/fields/field_grid.h"
 #include "boundary_integral/flow/free_space_flow.h"
+#include "boundary_integral/support/parallel.h"
 #include "shared/geometry/observables.h"
 #include "shared/output/field_index.h"
 #include "shared/support/error.h"
@@ -315,10 +315,10 @@ class Run {
 
 }  // namespace
 
-EngineIdentity identity() {
+EngineIdentity identity(const Parameters& parameters) {
     EngineIdentity identity;
     identity.name = "boundary-integral";
-    identity.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    identity.threads = thread_count(parameters.boundary_integral.threads);
     identity.libraries = {{"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
                                         "." + std::to_string(EIGEN_MINOR_VERSION)}};
     identity.history_columns = {"dissipated_power_pN_nm_per_us",

@@ -8,7 +8,7 @@
 namespace endoflow::boundary_integral {
 
 // Name, libraries and own history columns of this engine.
-EngineIdentity identity();
+EngineIdentity identity(const Parameters& parameters);
 
 // Runs a case from t = 0 or from the output's restart point to time.end, budding (output.stop_at_budding), neck closure
 // or interruption. Throws SolverError when it cannot go on, InputError when the restart point does not fit the

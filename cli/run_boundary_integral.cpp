@@ -14,7 +14,7 @@ int run(int argc, char** argv) {
     const auto request = parse_run_request(argc, argv, "boundary-integral");
     if (!request) return 0;
     install_signal_handlers();
-    RunOutput output(request->parameters, boundary_integral::identity(), request->directory,
+    RunOutput output(request->parameters, boundary_integral::identity(request->parameters), request->directory,
                      request->restart ? StartMode::restart : StartMode::fresh);
     return run_to_the_end(output, [&] { return boundary_integral::simulate(request->parameters, output); });
 }
