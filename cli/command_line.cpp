@@ -56,7 +56,8 @@ Outcome attempt(const std::function<int()>& body) {
     } catch (const std::bad_alloc&) {
         return {stopped, "out of memory: use fewer elements or larger cells"};
     } catch (const std::exception& failure) {
-        return {stopped, fmt::format("internal error: {}; please report it with the case file", failure.what())};
+        return {stopped,
+                one_line(fmt::format("internal error: {}; please report it with the case file", failure.what()))};
     }
 }
 

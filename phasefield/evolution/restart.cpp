@@ -1,5 +1,10 @@
+#include <deal.II/base/exceptions.h>
+
+#include <cstdint>
+
 #include "phasefield/evolution/time_loop.h"
 #include "phasefield/io/mesh_checkpoint.h"
+#include "shared/support/error.h"
 
 namespace endoflow::phasefield {
 
@@ -26,7 +31,12 @@ void TimeLoop::checkpoint() {
                           {"neck_radius", neck_radius_.value_or(-1)}, {"budding_time", budding_time_.value_or(-1)}};
     checkpoint.arrays["field_times"] = field_times_;
     const auto directory = output_.directory() / "checkpoint" / slot;
-    scheme_->save(directory, checkpoint);
+    try {
+        scheme_->save(directory, checkpoint);
+    } catch (const dealii::ExceptionBase&) {
+        throw IoError(directory.string() + ": cannot be written; check the disk's space and permissions");
+    }
+    require_whole(directory, static_cast<std::uint64_t>(scheme_->cells()));
     checkpoint.texts["mesh_files"] = describe_files(directory);
     output_.write_checkpoint(checkpoint);
 }

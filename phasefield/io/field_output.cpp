@@ -3,6 +3,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <fstream>
+#include <string>
 #include <system_error>
 
 #include "shared/output/atomic_file.h"
@@ -10,6 +12,21 @@
 #include "shared/support/error.h"
 
 namespace endoflow::phasefield {
+
+namespace {
+
+/// Throws IoError unless the file ends as a VTU file does: libraries of MPI need not report a write that failed.
+void require_whole(const std::filesystem::path& file) {
+    const std::string end = "</VTKFile>\n";
+    std::ifstream stream(file, std::ios::binary);
+    stream.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+    std::string found(end.size(), '\0');
+    stream.read(found.data(), static_cast<std::streamsize>(found.size()));
+    if (!stream || found != end)
+        throw IoError(file.string() + ": cannot be written whole; check that the disk has space left");
+}
+
+}  // namespace
 
 void write_field_file(const std::filesystem::path& run_directory, std::vector<double>& times, double time,
                       MPI_Comm communicator, const dealii::DataOut<2>& data) {
@@ -29,6 +46,7 @@ void write_field_file(const std::filesystem::path& run_directory, std::vector<do
     }
     times.push_back(time);
     if (!first) return;
+    require_whole(part);
     publish_file(part, file);
     write_field_list(directory, times);
 }

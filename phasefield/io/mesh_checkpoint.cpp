@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <boost/crc.hpp>
-#include <cstdint>
 #include <fstream>
 #include <system_error>
 #include <vector>
 
+#include "shared/output/atomic_file.h"
 #include "shared/support/error.h"
 
 namespace endoflow::phasefield {
@@ -38,9 +38,7 @@ std::uint32_t checksum(const std::filesystem::path& file) {
     return crc.checksum();
 }
 
-}  // namespace
-
-std::string describe_files(const std::filesystem::path& directory) {
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& directory) {
     std::error_code failure;
     std::vector<std::filesystem::path> files;
     for (std::filesystem::directory_iterator file(directory, failure), end; !failure && file != end;
@@ -48,8 +46,32 @@ std::string describe_files(const std::filesystem::path& directory) {
         files.push_back(file->path());
     if (failure) throw IoError(directory.string() + ": cannot be read: " + failure.message());
     std::sort(files.begin(), files.end());
+    return files;
+}
+
+}  // namespace
+
+void require_whole(const std::filesystem::path& directory, std::uint64_t cells) {
+    std::ifstream info(directory / "mesh.info");
+    std::string names;
+    std::getline(info, names);
+    std::uint64_t version = 0, processes = 0, objects = 0;
+    info >> version >> processes >> objects;
+    // deal.II's layout: where each object of a cell ends, the last being the bytes of a cell; then the cells.
+    const auto file = directory / "mesh_fixed.data";
+    std::vector<std::uint32_t> ends(objects + 1);
+    std::ifstream(file, std::ios::binary)
+        .read(reinterpret_cast<char*>(ends.data()), static_cast<std::streamsize>(ends.size() * sizeof(std::uint32_t)));
+    std::error_code failure;
+    const auto size = std::filesystem::file_size(file, failure);
+    if (!info || failure || size != ends.size() * sizeof(std::uint32_t) + cells * ends.back())
+        throw IoError(directory.string() + ": cannot be written whole; check that the disk has space left");
+    for (const auto& written : files_in(directory)) flush_to_disk(written);
+}
+
+std::string describe_files(const std::filesystem::path& directory) {
     std::string text;
-    for (const auto& file : files)
+    for (const auto& file : files_in(directory))
         text += file.filename().string() + " " + std::to_string(std::filesystem::file_size(file)) + " " +
                 std::to_string(checksum(file)) + "\n";
     return text;
@@ -62,8 +84,12 @@ void require_files(const std::filesystem::path& directory, const std::string& de
 
 void make_empty_directory(const std::filesystem::path& directory, MPI_Comm communicator) {
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0) {
-        std::filesystem::remove_all(directory);
-        std::filesystem::create_directories(directory);
+        std::error_code failure;
+        std::filesystem::remove_all(directory, failure);
+        if (!failure) std::filesystem::create_directory(directory, failure);
+        if (failure)
+            throw IoError(directory.string() + ": cannot be made anew: " + failure.message() +
+                          "; check that the run's directory exists and is writable");
     }
     MPI_Barrier(communicator);
 }

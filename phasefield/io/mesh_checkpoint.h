@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -14,7 +15,12 @@ namespace endoflow::phasefield {
 /// it reads a damaged one.
 void require_files(const std::filesystem::path& directory, const std::string& description);
 
-/// Makes an empty directory in the place of what is there; collective.
+/// Throws IoError unless the saved vectors of all cells are in the directory, and flushes them to the disk: libraries
+/// of MPI need not report a write that failed (OpenMPI's OMPIO does not on a full disk).
+void require_whole(const std::filesystem::path& directory, std::uint64_t cells);
+
+/// Makes an empty directory in the place of what is there, but not the directory it lies in; collective. Throws
+/// IoError.
 void make_empty_directory(const std::filesystem::path& directory, MPI_Comm communicator);
 
 /// Reads a saved mesh in the place of the coarse one. Throws IoError.

@@ -1,10 +1,12 @@
 """A run in trouble with its directory: one clear error and exit code 4, or no trouble at all.
 
-    python3 tests/reliability/test_trouble.py build/endoflow
+    python3 tests/reliability/test_trouble.py build/endoflow [BoundaryIntegral] [PhaseField]
 """
 
+import os
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -16,44 +18,139 @@ import h5py
 
 PROGRAM = None
 
+ENGINES = {
+    # name of the engine, settings of a run whose steps take a fraction of a second and that writes after every step
+    "boundary-integral": ("boundary_integral.elements=24", "boundary_integral.threads=1",
+                          "output.shape_interval=0.0005"),
+    "phase-field": ("domain.radius=40", "domain.height=40", "domain.membrane_height=20", "molecules.patch_radius=20",
+                    "phase_field.epsilon=4", "phase_field.cell_size=4", "molecules.interface_width=4"),
+}
 
-class Trouble(unittest.TestCase):
+
+def command(engine, directory, *settings, restart=False):
+    words = [PROGRAM, "run", engine, "/dev/null", "-o", directory]
+    for setting in (*ENGINES[engine], "output.field_interval=0", "output.checkpoint_interval=0", *settings):
+        words += ["--set", setting]
+    return [str(word) for word in words] + (["--restart"] if restart else [])
+
+
+def without_power_over_permissions(words):
+    """Root may write everywhere; without these capabilities it may not."""
+    if os.geteuid() != 0:
+        return words
+    return ["setpriv", "--bounding-set=-dac_override,-dac_read_search", *words]
+
+
+def files(directory):
+    return {file.relative_to(directory): file.read_bytes() for file in directory.rglob("*") if file.is_file()}
+
+
+def limit_files(process, size):
+    """No file grows beyond this size any more, and a write that would fails, as on a full disk."""
+    resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (size, size))
+
+
+def processes_of(program, directory):
+    """The processes of a program that were started with this directory."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*"):
+        try:
+            words = (entry / "cmdline").read_text().split("\0")
+        except OSError:  # it has just ended
+            continue
+        if Path(words[0]).name == program and str(directory) in words:
+            found.append(int(entry.name))
+    return found
+
+
+class AnyEngine:
+    """What every engine must bear."""
+
+    @classmethod
+    def setUpClass(cls):
+        holder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(holder.cleanup)
+        cls.finished = Path(holder.name) / "run"  # with two checkpoints, to be copied
+        subprocess.run(command(cls.engine, cls.finished, "time.end=2e-5"), stdout=subprocess.DEVNULL, check=True)
+
     def setUp(self):
         holder = tempfile.TemporaryDirectory()
         self.addCleanup(holder.cleanup)
         self.directory = Path(holder.name) / "run"
 
-    def start(self, *settings, **how):
-        words = [PROGRAM, "run", "boundary-integral", "/dev/null", "-o", self.directory]
-        for setting in ("boundary_integral.elements=24", "boundary_integral.threads=1", "output.field_interval=0",
-                        "output.checkpoint_interval=0", "output.shape_interval=0.0005", *settings):
-            words += ["--set", setting]
+    def start(self, *settings, restart=False, **how):
+        words = without_power_over_permissions(command(self.engine, self.directory, *settings, restart=restart))
         return subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, **how)
 
-    def assert_io_error(self, process, word):
+    def copy_finished_run(self):
+        shutil.copytree(self.finished, self.directory)
+
+    def assert_io_error(self, process, *words):
+        """Exit code 4 and one line of ours; a library may have written lines of its own before it."""
         _, errors = process.communicate(timeout=300)
         self.assertEqual(process.returncode, 4, errors)
-        self.assertEqual(len(errors.strip().splitlines()), 1, errors)
-        self.assertIn(word, errors)
+        self.assertEqual(errors.count("endoflow: "), 1, errors)
+        for word in words:
+            self.assertIn(word, errors.splitlines()[-1])
+
+    def assert_goes_on(self, *settings):
+        process = self.start(*settings, restart=True)
+        _, errors = process.communicate(timeout=300)
+        self.assertEqual((process.returncode, errors), (0, ""))
+
+    def wait_until(self, process, reached):
+        while process.poll() is None and not reached():
+            time.sleep(0.02)
 
     def wait_for_rows(self, process, count):
         history = self.directory / "history.csv"
-        while process.poll() is None and not (history.exists() and history.read_text().count("\n") > count):
-            time.sleep(0.02)
+        self.wait_until(process, lambda: history.exists() and history.read_text().count("\n") > count)
+
+    def wait_for_checkpoints(self, process):
+        self.wait_until(process, (self.directory / "checkpoint" / "state.previous.h5").exists)
+
+    def test_directory_that_cannot_be_written(self):
+        self.directory.mkdir(mode=0o555)
+        self.assert_io_error(self.start(), str(self.directory), "not a writable directory")
+        self.assertEqual(list(self.directory.iterdir()), [])
+
+    def test_directory_removed_while_running(self):
+        process = self.start("time.end=5")
+        self.wait_for_checkpoints(process)
+        self.directory.rename(self.directory.with_name("moved"))
+        self.assert_io_error(process, str(self.directory))
+        self.assertFalse(self.directory.exists())
+
+    def test_disk_full_after_a_checkpoint(self):
+        process = self.start("time.end=5")
+        self.wait_for_checkpoints(process)
+        limit_files(process, 2000)
+        self.assert_io_error(process, str(self.directory))
+        times = [float(row.split(",")[0]) for row in (self.directory / "history.csv").read_text().splitlines()[1:]]
+        self.assert_goes_on(f"time.end={1.01 * times[-1]:.17g}")
+
+    def test_damaged_checkpoint(self):
+        self.copy_finished_run()
+        latest, previous = (self.directory / "checkpoint" / name for name in ("state.h5", "state.previous.h5"))
+        latest.write_bytes(latest.read_bytes()[:20000])
+        self.assert_goes_on("time.end=2e-5")
+        for file in (latest, previous):
+            file.write_bytes(file.read_bytes()[:20000])
+        before = files(self.directory)
+        self.assert_io_error(self.start(restart=True), "state.h5", "damaged")
+        self.assertEqual(files(self.directory), before)
+
+
+class BoundaryIntegral(AnyEngine, unittest.TestCase):
+    engine = "boundary-integral"
 
     def test_disk_full(self):
-        """A limit to the size of files acts as a full disk does, at every place where files grow."""
+        """At every place where files grow."""
         for size in (0, 100, 1000, 5000, 20000, 50000):
             with self.subTest(size):
                 limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))  # noqa: E731
                 self.assert_io_error(self.start("time.end=5", preexec_fn=limit), str(self.directory))
                 shutil.rmtree(self.directory, ignore_errors=True)
-
-    def test_directory_removed_while_running(self):
-        process = self.start("time.end=5")
-        self.wait_for_rows(process, 3)
-        self.directory.rename(self.directory.with_name("moved"))
-        self.assert_io_error(process, str(self.directory))
 
     def test_somebody_reads_the_shapes(self):
         process = self.start("time.end=0.01")
@@ -63,6 +160,61 @@ class Trouble(unittest.TestCase):
         self.assertEqual((process.returncode, errors), (0, ""))
         with h5py.File(self.directory / "shapes.h5", "r") as file:
             self.assertEqual(len(file["shapes"]), 21)
+
+
+class PhaseField(AnyEngine, unittest.TestCase):
+    engine = "phase-field"
+
+    def test_disk_full_while_vectors_are_written(self):
+        """The saved vectors are by far the largest file, and are written by MPI, which says nothing."""
+        process = self.start("time.end=5")
+        self.wait_for_checkpoints(process)
+        limit_files(process, 300000)
+        self.assert_io_error(process, str(self.directory / "checkpoint"), "disk")
+        self.assert_goes_on("time.end=1e-4")
+
+    def test_disk_full_while_fields_are_written(self):
+        process = self.start("time.end=5", "output.field_interval=1e-5")
+        self.wait_until(process, (self.directory / "fields" / "fields_000000.vtu").exists)
+        limit_files(process, (self.directory / "fields" / "fields_000000.vtu").stat().st_size // 2)
+        self.assert_io_error(process, str(self.directory), "disk")
+
+    def test_damaged_mesh(self):
+        self.copy_finished_run()
+        for name in ("mesh", "mesh.info", "mesh_fixed.data"):
+            with self.subTest(name):
+                shutil.rmtree(self.directory)
+                self.copy_finished_run()
+                for file in self.directory.glob(f"checkpoint/mesh-*/{name}"):
+                    content = bytearray(file.read_bytes())
+                    content[len(content) // 2] ^= 1
+                    file.write_bytes(content)
+                self.assert_io_error(self.start(restart=True), "checkpoint/mesh-", "damaged")
+
+    def test_checkpoint_of_another_engine_or_scheme(self):
+        self.copy_finished_run()
+        self.assert_io_error(self.start("phase_field.scheme=paper", restart=True), "run without --restart")
+        shutil.rmtree(self.directory)
+        subprocess.run(command("boundary-integral", self.directory, "time.end=2e-5"), stdout=subprocess.DEVNULL,
+                       check=True)
+        before = files(self.directory)
+        self.assert_io_error(self.start(restart=True), "boundary-integral", "run without --restart")
+        self.assertEqual(files(self.directory), before)
+
+    def test_killed_process(self):
+        """MPI ends the others; what was written is enough to go on, here with one process."""
+        words = command(self.engine, self.directory, "time.end=5")
+        process = subprocess.Popen(["mpirun", "-n", "2", *words], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        self.wait_for_checkpoints(process)
+        ranks = processes_of("endoflow-phase-field", self.directory)
+        self.assertEqual(len(ranks), 2, process.poll() and process.communicate())
+        os.kill(ranks[-1], signal.SIGKILL)
+        _, errors = process.communicate(timeout=300)
+        self.assertNotEqual(process.returncode, 0)
+        self.assertIn("Killed", errors)
+        times = [float(row.split(",")[0]) for row in (self.directory / "history.csv").read_text().splitlines()[1:]]
+        self.assert_goes_on(f"time.end={1.01 * times[-1]:.17g}")
 
 
 if __name__ == "__main__":
