@@ -2,6 +2,7 @@
 #
 #   make demo       install what is missing, build, run both engines on cases/demo.toml, compare: out/demo/report.html
 #   make test       the same set-up, then all tests, clang-format and clang-tidy   (SANITIZE=1: with sanitizers)
+#                   SANITIZE=thread: the engine with threads, under the thread sanitizer
 #   make build      build/endoflow and its engines
 #   make install    DESTDIR and prefix as usual          make package   a Debian package in build/
 #   make bench      what the engines cost here: out/bench/bench.md   (BENCH=--quick: minutes instead of tens of minutes)
@@ -18,6 +19,11 @@ prefix ?= /usr/local
 ifeq ($(SANITIZE),1)
   preset := sanitize
   build := build-sanitize
+else ifeq ($(SANITIZE),thread)
+  preset := sanitize-thread
+  build := build-sanitize-thread
+  override PHASEFIELD := OFF
+  tests := --tests-regex '^boundary_integral$$'
 else
   preset := release
   build := build
@@ -59,7 +65,7 @@ test: test-packages
 	@$(MAKE) --no-print-directory configure
 	cmake --build $(build)
 	@$(MAKE) --no-print-directory lint
-	ctest --test-dir $(build) --output-on-failure
+	ctest --test-dir $(build) --output-on-failure $(tests)
 
 bench: build
 	cmake --build $(build) --target bench-ring-kernels
@@ -87,4 +93,4 @@ lint:
 	tools/clang_tidy $(build) $(CORES)
 
 clean:
-	rm -rf build build-debug build-sanitize
+	rm -rf build build-debug build-sanitize build-sanitize-thread build-clang

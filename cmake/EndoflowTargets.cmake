@@ -24,9 +24,9 @@ endif()
 
 add_library(endoflow_sanitizers INTERFACE)
 if(ENDOFLOW_SANITIZE)
-  target_compile_options(endoflow_sanitizers INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+  target_compile_options(endoflow_sanitizers INTERFACE -fsanitize=${ENDOFLOW_SANITIZE} -fno-sanitize-recover=all
                                                        -fno-omit-frame-pointer)
-  target_link_options(endoflow_sanitizers INTERFACE -fsanitize=address,undefined)
+  target_link_options(endoflow_sanitizers INTERFACE -fsanitize=${ENDOFLOW_SANITIZE})
 elseif(ENDOFLOW_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
     message(FATAL_ERROR "libFuzzer comes with Clang: configure with -DCMAKE_CXX_COMPILER=clang++, or without "
