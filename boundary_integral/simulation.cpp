@@ -169,6 +169,7 @@ class Run {
         const MembraneState& state = accepted.state;
         const ShapeIntegrals shape = shape_integrals(space, state, parameters_.domain);
         check_walls(shape, time);
+        check_stiffness(accepted.samples.c, time);
         const auto neck = find_neck(space, state);
         HistoryRow row;
         row.time_us = time;
@@ -221,6 +222,20 @@ class Run {
                           "the membrane is " + std::to_string(shape.wall_distance) + " nm from a wall at t = " +
                               std::to_string(time) + " us, nearer than domain.wall_clearance",
                           "enlarge domain.height or move domain.membrane_height");
+    }
+
+    // Beside the coat's edge c leaves [0, 1] by some hundredths. That is harmless as long as b(c) stays positive;
+    // bending with a negative stiffness is ill-posed, and no time step would be small enough.
+    void check_stiffness(const std::vector<double>& concentrations, double time) const {
+        for (const double c : concentrations) {
+            if (dynamics_.model().stiffness(c).value > 0.0) continue;
+            throw SolverError(
+                "negative-stiffness",
+                "the law of membrane.constitutive_law gives no positive bending stiffness at c = " + std::to_string(c) +
+                    ", beside the edge of the coat, at t = " + std::to_string(time) + " us",
+                "bring membrane.bending_stiffness and bending_stiffness_coated nearer to each other, or "
+                "choose another membrane.constitutive_law");
+        }
     }
 
     double output_time(double count) const { return count * parameters_.output.shape_interval; }

@@ -235,6 +235,20 @@ TEST_CASE("a membrane that comes too near a wall stops the run with a name and a
     }
 }
 
+TEST_CASE("a stiffness that is negative beside the coat stops the run with a name and a remedy", "[run]") {
+    const ScratchDirectory scratch("stiffness");
+    Parameters parameters = standard(32, 1);
+    parameters.membrane.bending_stiffness_coated = 1e5;  // b(c) < 0 for c < -1/999
+    try {
+        run(parameters, scratch.path);
+        FAIL("the run must not go on");
+    } catch (const SolverError& error) {
+        CHECK(error.name() == "negative-stiffness");
+        CHECK(std::string(error.what()).find("membrane.constitutive_law") != std::string::npos);
+    }
+    CHECK(read_table(scratch.path / "history.csv").size() > 3);
+}
+
 TEST_CASE("without a fluid the standard case pinches off and ends well", "[run]") {
     const ScratchDirectory scratch("geometric");
     Parameters parameters = standard(60, 30);
