@@ -34,10 +34,10 @@ SETTINGS = {
         "molecules.patch_radius": 20,
         "phase_field.epsilon": 4,
         "phase_field.cell_size": 4,
-        "molecules.interface_width": 4,
+        "molecules.interface_width": 5.5,  # wide enough for the coat's edge to need no smaller cells
     },
 }
-UNTIL = {"boundary-integral": 0.02, "phase-field": 0.004}
+UNTIL = {"boundary-integral": 0.02, "phase-field": 0.001}
 
 
 class Lost(Exception):
