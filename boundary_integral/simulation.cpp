@@ -119,9 +119,8 @@ class Run {
         const std::vector<double>& differences = checkpoint->array("differences");
         constexpr Index columns = StepHistory::highest_order + 3;
         if (static_cast<Index>(differences.size()) != dynamics_.size() * columns) {
-            throw InputError(
-                "the checkpoint in " + output_.directory().string() +
-                " was made with another number of elements; restart with the same boundary_integral.elements");
+            throw IoError("the checkpoint in " + output_.directory().string() +
+                          " does not hold this membrane; run without --restart");
         }
         history.time = checkpoint->time_us;
         history.step = checkpoint->scalar("next_step");
@@ -345,6 +344,7 @@ EngineIdentity identity(const Parameters& parameters) {
                                 "inflow_nm_per_us",
                                 "wall_distance_nm",
                                 "integrator_order"};
+    identity.kept_parameters = {"domain.kind", "domain.radius", "domain.membrane_height", "boundary_integral.elements"};
     return identity;
 }
 

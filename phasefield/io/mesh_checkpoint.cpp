@@ -1,5 +1,6 @@
 #include "phasefield/io/mesh_checkpoint.h"
 
+#include <deal.II/base/exceptions.h>
 #include <deal.II/distributed/solution_transfer.h>
 
 #include <algorithm>
@@ -97,7 +98,11 @@ void make_empty_directory(const std::filesystem::path& directory, MPI_Comm commu
 void load_mesh(const std::filesystem::path& directory, Mesh& mesh) {
     if (!std::filesystem::exists(directory / "mesh.info"))
         throw IoError("checkpoint " + directory.string() + " holds no mesh; start the run afresh");
-    mesh.load((directory / "mesh").string());
+    try {
+        mesh.load((directory / "mesh").string());
+    } catch (const dealii::ExceptionBase&) {
+        throw IoError("checkpoint " + directory.string() + ": its mesh is not one of this case; run without --restart");
+    }
 }
 
 void save_mesh_and_state(const std::filesystem::path& directory, Discretization& d, const State& state) {

@@ -74,6 +74,15 @@ Json parse_record(const std::string& text, const std::string& source) {
     }
 }
 
+void require_same(const std::string& key, const Json& before, const Json& now) {
+    const auto dot = key.find('.');
+    const std::string section = key.substr(0, dot), name = key.substr(dot + 1);
+    const Json &old_value = before.at(section).at(name), &new_value = now.at(section).at(name);
+    if (old_value != new_value)
+        throw InputError(fmt::format("{} = {}: the run to continue has {}, which a restart cannot change", key,
+                                     new_value.dump(), old_value.dump()));
+}
+
 }  // namespace
 
 std::string to_string(ExitReason reason) {
@@ -137,7 +146,9 @@ struct RunOutput::Implementation {
         if (record.at("engine") != engine.name)
             throw IoError(fmt::format("{}: was written by the {} engine, not by {}; run without --restart",
                                       directory.root.string(), record["engine"].get<std::string>(), engine.name));
-        record["parameters"] = parameters_to_json(parameters);
+        const Json now = parameters_to_json(parameters);
+        for (const auto& key : engine.kept_parameters) require_same(key, record.at("parameters"), now);
+        record["parameters"] = now;
         record["restarts"] = record.at("restarts").get<int>() + 1;
         wall_before = record.at("wall_s").get<double>();
         cpu_before = record.at("cpu_s").get<double>();

@@ -32,6 +32,8 @@ struct EngineIdentity {
     int processes = 1;
     int threads = 1;
     RowOrder row_order = RowOrder::in_time;
+    /// "section.key" of the parameters its checkpoints are made for: a restart cannot change them.
+    std::vector<std::string> kept_parameters = {};
 };
 
 enum class StartMode { fresh, restart };

@@ -281,6 +281,28 @@ TEST_CASE("checkpoints that are not ours, or not whole, are one clear error") {
     CHECK_THAT(foreign_record("{\"engine\": \"test\", \"restarts\": \"x\"}"), Contains("run record"));
 }
 
+TEST_CASE("a restart cannot change the parameters its checkpoint is made for, and changes nothing when it tries") {
+    const TemporaryDirectory directory;
+    const auto root = directory.path() / "run";
+    leave_killed_run(root);
+    const std::string history = content(root / "history.csv"), record = content(root / "run.json");
+    auto engine = test_engine();
+    engine.kept_parameters = {"domain.kind", "domain.radius"};
+    Parameters parameters;
+    parameters.domain.radius = 90;
+    parameters.time.end = 2;
+    try {
+        const RunOutput output(parameters, engine, root, StartMode::restart);
+        FAIL("no error");
+    } catch (const InputError& error) {
+        CHECK_THAT(error.what(), Contains("domain.radius = 90.0: the run to continue has 80.0"));
+    }
+    CHECK(content(root / "history.csv") == history);
+    CHECK(content(root / "run.json") == record);
+    parameters.domain.radius = Parameters{}.domain.radius;
+    CHECK(RunOutput(parameters, engine, root, StartMode::restart).restart_point()->time_us == 0.5);
+}
+
 TEST_CASE("a directory that cannot be made is one clear error") {
     const TemporaryDirectory directory;
     std::ofstream(directory.path() / "file") << "x";
