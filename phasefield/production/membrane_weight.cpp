@@ -17,7 +17,9 @@ constexpr double smallest_viscosity = 0.5;  // in the layer, of the smaller one
 constexpr double nearly_one = 1 - 1e-9;     // the integrands tend to 0 there, as 0/0
 
 MembraneWeight weight_of(double square) {
-    return {1 - square / 5, square};
+    MembraneWeight weight{1 - square / 5, square};
+    weight.cut = cut_norm(weight);
+    return weight;
 }
 
 /// max H_m − ½.
@@ -39,6 +41,14 @@ double zero_of(const Function& f, double a, double b) {
 }
 
 }  // namespace
+
+double cut_norm(const MembraneWeight& weight) {
+    const auto integrand = [&](double phi) {  // dH_m/dφ times the part that is kept
+        const double well = 1 - phi * phi, kept = well * well / (well * well + tail_cut);
+        return 0.75 * well * (weight.constant + weight.square * phi * phi) * kept;
+    };
+    return 0.5 / boost::math::quadrature::tanh_sinh<double>().integrate(integrand, 0.0, 1.0);
+}
 
 double excess_shear(const MembraneWeight& weight, const FluidParameters& fluid, ViscosityMean mean) {
     const double nu1 = fluid.viscosity_extracellular, nu2 = fluid.viscosity_intracellular, far = 1 / nu1 + 1 / nu2;

@@ -7,7 +7,15 @@ namespace endoflow::phasefield::production {
 /// The weight δ_m = δ (a + b φ²) of what lives on the membrane, a = 1 − b/5 so that ∫δ_m dψ = 1.
 struct MembraneWeight {
     double constant = 1, square = 0;  // a, b
+    double cut = 1;                   // 1/∫ δ_m δ/(δ + f) dψ
 };
+
+/// f of what is cut off in the tails, δ → δ²/(δ + f), as part of max δ: 4 ε from the membrane normals may cross, and
+/// forces there make Newton's method fail.
+inline constexpr double tail_cut = 1e-3;
+
+/// 1/∫ δ_m δ/(δ + f) dψ, so that the integral over the layer stays one.
+double cut_norm(const MembraneWeight& weight);
 
 /// H_m(φ) with dH_m/dψ = δ_m: −½ … ½, and a little beyond within the layer.
 template <class Number>

@@ -42,16 +42,15 @@ struct StepNumbers {
     MembraneWeight weight;
 };
 
-inline constexpr double surface_floor = 1e-8;        // [1/nm] added to δ, so that G, c and s are defined everywhere
-inline constexpr double energy_floor = 1e-3;         // f of the energy's weight as part of max δ
-inline constexpr double energy_norm = 1.0036235636;  // 1/∫ δ²/(δ + f) dψ
-inline constexpr double moment_floor = 4e-5;         // [nm] continues b smoothly where the energy has no weight
-inline constexpr double force_alignment = 20;        // [ε²] keeps G constant along the normal
-inline constexpr double moment_alignment = 20;       // [ε²] the same for b
-inline constexpr double step_alignment = 20;         // [ε² per step] the same for c, s and ψ
-inline constexpr double profile_floor = 1e-5;        // the same for the flux that keeps |∇ψ| = 1
-inline constexpr double alignment_floor = 1e-4;      // the same for λ
-inline constexpr double far_smoothing = 1.02;        // 1/|∇ψ| far from the layer, where ψ solves a Poisson equation
+inline constexpr double surface_floor = 1e-8;    // [1/nm] added to δ, so that G, c and s are defined everywhere
+inline const double energy_norm = cut_norm({});  // 1/∫ δ²/(δ + f) dψ
+inline constexpr double moment_floor = 4e-5;     // [nm] continues b smoothly where the energy has no weight
+inline constexpr double force_alignment = 20;    // [ε²] keeps G constant along the normal
+inline constexpr double moment_alignment = 20;   // [ε²] the same for b
+inline constexpr double step_alignment = 20;     // [ε² per step] the same for c, s and ψ
+inline constexpr double profile_floor = 1e-5;    // the same for the flux that keeps |∇ψ| = 1
+inline constexpr double alignment_floor = 1e-4;  // the same for λ
+inline constexpr double far_smoothing = 1.02;    // 1/|∇ψ| far from the layer, where ψ solves a Poisson equation
 inline constexpr double layer_pressure_alignment = 30;  // [nm³/(pN µs)] keeps q constant along the normal
 inline constexpr double pressure_leak = 0.01;           // [nm/(pN µs)] ∇·u per q: decides between p and δ q
 inline constexpr double molecule_leak = 1e-6;   // [1/nm] of the normal diffusivity: defines c far from the layer
@@ -123,7 +122,7 @@ struct PointGeometry {
 template <class Number>
 struct EnergyWeight {
     Number value, first, second;
-    Number part;  // of δ
+    Number kept;  // δ/(δ + f)
 };
 
 template <class Number>
@@ -131,10 +130,10 @@ EnergyWeight<Number> energy_weight(const LayerProfile<Number>& layer, double eps
     const double a = 2 / (inverse_sqrt2 * epsilon);
     const Number& d = layer.delta;
     const Number d1 = layer.delta_slope, d2 = -a * (layer.phi_slope * d + layer.phi * d1);
-    const double f = energy_floor * 0.75 * inverse_sqrt2 / epsilon;
+    const double f = tail_cut * 0.75 * inverse_sqrt2 / epsilon;
     const Number inverse = 1.0 / (d + f), part = d * inverse, rest = f * inverse;
     const Number g1 = part * (part + 2.0 * rest), g2 = 2.0 * rest * rest * inverse;
-    return {energy_norm * d * part, energy_norm * g1 * d1, energy_norm * (g2 * d1 * d1 + g1 * d2), energy_norm * part};
+    return {energy_norm * d * part, energy_norm * g1 * d1, energy_norm * (g2 * d1 * d1 + g1 * d2), part};
 }
 
 /// D_n ∇·(δ n n·∇y): keeps y constant along the normal, the predicted one, so that the term is linear.
@@ -161,7 +160,7 @@ Number force_diffusivity(const PointGeometry<Number>& p, double epsilon) {
 /// normal force G and the force e ∇c, so that the discrete equations obey the energy law. G is kept constant along the
 /// normal: what varies there is the force that keeps the profile, which the profile's relaxation takes over. Acting on
 /// the fluid it would drive a flow within the layer that the relaxation undoes all the time.
-/// Returns e [pN/nm].
+/// Returns e [pN/nm], cut off in the tails, too.
 template <class Number>
 Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const BendingModel& model, double epsilon,
                    const PointHistory& past, Fields<Number>& row) {
@@ -188,7 +187,7 @@ Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     row[normal_force].value += (0.5 * compliance) * w.first * slope * slope;
     row[normal_force].r += flux * b.r;
     row[normal_force].z += flux * b.z;
-    return w.part * (b.value * m.curvature_c + 0.5 * K * K * m.beta_c);
+    return w.kept * (b.value * m.curvature_c + 0.5 * K * K * m.beta_c);
 }
 
 template <class Number>
@@ -215,7 +214,7 @@ void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Num
               const PointHistory& past, const StepNumbers& step, Fields<Number>& row) {
     const auto &ur = x[velocity_r], &uz = x[velocity_z], &psi = x[distance], &c = x[molecule_density];
     const auto& G = x[normal_force];
-    const Number g = p.density * G.value, molecular = p.density * e;
+    const Number g = p.density * G.value, molecular = step.weight.cut * p.density * e;
     const Number uneven = force_diffusivity(p, step.numerics.epsilon) * (past.normal_r * G.r + past.normal_z * G.z);
     const Number nu = layer_viscosity(p.layer.phi, step.fluid, step.weight, step.numerics.viscosity_mean);
     const Number hoop = ur.value / r, divergence = ur.r + hoop + uz.z;
