@@ -10,7 +10,7 @@ namespace endoflow::phasefield::production {
 /// The mesh follows when the membrane has moved this far, in units of ε.
 inline constexpr double follow_after_motion = 0.5;
 
-/// All fields at one time level are solved for together by Newton's method; BDF2 in time with the error of ψ
+/// All fields at one time level are solved for together by Newton's method; BDF3 in time with the error of ψ
 /// controlled.
 class ProductionScheme : public Scheme {
   public:

@@ -173,7 +173,7 @@ std::vector<ParameterRow> phase_field_rows() {
     using S = PhaseFieldParameters;
     return {
         row("phase_field", "scheme", &P::phase_field, &S::scheme, "", any(), "",
-            "production = all fields implicit, BDF2 with error control; paper = the first-order splitting of Sec. 3"),
+            "production = all fields implicit, BDF3 with error control; paper = the first-order splitting of Sec. 3"),
         row("phase_field", "epsilon", &P::phase_field, &S::epsilon, "nm", positive(1e3), "ε", "interface thickness"),
         row("phase_field", "mobility", &P::phase_field, &S::mobility, "nm^2/(pN µs)", at_least(0, 1e6), "γ",
             "scheme paper: mobility of the phase field in (35); Table 1's 6.4 nm^3/s is 6.4e-6 nm^2/(pN µs)"),
