@@ -153,31 +153,29 @@ Number force_diffusivity(const PointGeometry<Number>& p, double epsilon) {
 
 /// The bending energy as a functional of ψ, the moment b and c whose stationary value over b is E:
 ///
-///   E = ∫ w b h + w (b C − b²/(2 β)) − ½ D w (∇ψ·∇b)² dx,   h = Δψ + √2 φ (1 − |∇ψ|²)/ε,   w the weight above,
+///   E = ∫ w b h + w (b C − b²/(2 β)) − ½ D w (∇ψ·∇b)² dx,   h = Δψ − w' (1 − |∇ψ|²)/(2w),   w the weight above,
 ///
-/// the Laplacian of ψ integrated by parts. The last term keeps b constant along the normal: a sharp membrane has one
-/// curvature, not one for each level set. Its derivatives with respect to b, ψ and c are the rows of b and of the
-/// normal force G and the force e ∇c, so that the discrete equations obey the energy law. G is kept constant along the
-/// normal: what varies there is the force that keeps the profile, which the profile's relaxation takes over. Acting on
-/// the fluid it would drive a flow within the layer that the relaxation undoes all the time.
-/// Returns e [pN/nm], cut off in the tails, too.
+/// the Laplacian of ψ integrated by parts. With w = δ this h is the one at the top of this page; with another h a
+/// weight that is cut off exerts a force on curved membranes, one that does not vanish with ε. The last term keeps b
+/// constant along the normal: a sharp membrane has one curvature, not one for each level set. Its derivatives with
+/// respect to b, ψ and c are the rows of b and of the normal force G and the force e ∇c, so that the discrete equations
+/// obey the energy law. G is kept constant along the normal: what varies there is the force that keeps the profile,
+/// which the profile's relaxation takes over. Acting on the fluid it would drive a flow within the layer that the
+/// relaxation undoes all the time. Returns e [pN/nm], cut off in the tails, too.
 template <class Number>
 Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const BendingModel& model, double epsilon,
                    const PointHistory& past, Fields<Number>& row) {
     const auto &psi = x[distance], &b = x[moment];
     const Stiffness<Number> m = stiffness_of(x[molecule_density].value, model);
     const EnergyWeight<Number> w = energy_weight(p.layer, epsilon);
-    const double scale = 1 / (inverse_sqrt2 * epsilon);  // √2/ε
-    const Number K = b.value / m.beta, density = 0.5 * K * b.value;
-    const Number defect = scale * (1.0 - p.squared_gradient);
-    const Number strength = w.value * p.layer.phi, turn = w.first * p.layer.phi + w.value * p.layer.phi_slope;
+    const Number K = b.value / m.beta, density = 0.5 * K * b.value, mean = 0.5 * (1.0 + p.squared_gradient);
     const double smoothing = moment_floor / model.stiffness(0).value;
-    row[moment] = {w.value * (K - m.curvature) - strength * defect + w.first * p.squared_gradient,
-                   w.value * psi.r + smoothing * b.r, w.value * psi.z + smoothing * b.z};
-    const Number twist = 2.0 * (w.first + scale * strength) * b.value;
+    row[moment] = {w.value * (K - m.curvature) + w.first * mean, w.value * psi.r + smoothing * b.r,
+                   w.value * psi.z + smoothing * b.z};
+    const Number twist = w.first * b.value;
     row[normal_force] = {p.density * x[normal_force].value +
                              w.first * (psi.r * b.r + psi.z * b.z - m.curvature * b.value + density) +
-                             (w.second * p.squared_gradient - turn * defect) * b.value,
+                             w.second * mean * b.value,
                          w.value * b.r + twist * psi.r, w.value * b.z + twist * psi.z};
     add_alignment(x[normal_force], past, force_diffusivity(p, epsilon), row[normal_force]);
     const double compliance = moment_alignment * epsilon * epsilon / model.stiffness(0).value;
