@@ -17,9 +17,7 @@ constexpr double smallest_viscosity = 0.5;  // in the layer, of the smaller one
 constexpr double nearly_one = 1 - 1e-9;     // the integrands tend to 0 there, as 0/0
 
 MembraneWeight weight_of(double square) {
-    MembraneWeight weight{1 - square / 5, square};
-    weight.cut = cut_norm(weight);
-    return weight;
+    return {1 - square / 5, square};
 }
 
 /// max H_m − ½.
@@ -68,7 +66,9 @@ MembraneWeight membrane_weight(const FluidParameters& fluid, ViscosityMean mean)
     const double lowest =
         too_far(smallest_square) > 0 ? zero_of(too_far, smallest_square, monotonic_square) : smallest_square;
     const auto excess = [&](double square) { return excess_shear(weight_of(square), fluid, mean); };
-    return weight_of(zero_of(excess, lowest, 0.0));
+    MembraneWeight weight = weight_of(zero_of(excess, lowest, 0.0));
+    weight.cut = cut_norm(weight);
+    return weight;
 }
 
 }  // namespace endoflow::phasefield::production

@@ -195,7 +195,6 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     trial_.reinit(predicted, true);  // assignment alone could keep the ghosts of an earlier mesh
     trial_ = predicted;
     trial_.update_ghost_values();
-    predicted.update_ghost_values();
     // Further extrapolation would amplify what little the normals turn back and forth in the layer's tails.
     const Vector aim = polynomial(end, std::min(normal_points, times_.size()));
     solve(trial_, {&solutions_, bdf.past, &aim});

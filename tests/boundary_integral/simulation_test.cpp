@@ -84,6 +84,18 @@ void check_never_rising_energy(const Table& history) {
     }
 }
 
+/// The run ends with the error of this name, whose message names the remedy.
+void check_that_it_stops(const Parameters& parameters, const std::filesystem::path& directory, const std::string& name,
+                         const std::string& remedy) {
+    try {
+        run(parameters, directory);
+        FAIL("the run must not go on");
+    } catch (const SolverError& error) {
+        CHECK(error.name() == name);
+        CHECK(std::string(error.what()).find(remedy) != std::string::npos);
+    }
+}
+
 }  // namespace
 
 TEST_CASE("the early motion of the standard case is the reference's", "[run]") {
@@ -226,26 +238,14 @@ TEST_CASE("a membrane that comes too near a wall stops the run with a name and a
     const ScratchDirectory scratch("wall");
     Parameters parameters = standard(32, 1);
     parameters.domain.height = 90;
-    try {
-        run(parameters, scratch.path);
-        FAIL("the run must not go on");
-    } catch (const SolverError& error) {
-        CHECK(error.name() == "membrane-near-wall");
-        CHECK(std::string(error.what()).find("domain.height") != std::string::npos);
-    }
+    check_that_it_stops(parameters, scratch.path, "membrane-near-wall", "domain.height");
 }
 
 TEST_CASE("a stiffness that is negative beside the coat stops the run with a name and a remedy", "[run]") {
     const ScratchDirectory scratch("stiffness");
     Parameters parameters = standard(32, 1);
     parameters.membrane.bending_stiffness_coated = 1e5;  // b(c) < 0 for c < -1/999
-    try {
-        run(parameters, scratch.path);
-        FAIL("the run must not go on");
-    } catch (const SolverError& error) {
-        CHECK(error.name() == "negative-stiffness");
-        CHECK(std::string(error.what()).find("membrane.constitutive_law") != std::string::npos);
-    }
+    check_that_it_stops(parameters, scratch.path, "negative-stiffness", "membrane.constitutive_law");
     CHECK(read_table(scratch.path / "history.csv").size() > 3);
 }
 
