@@ -42,7 +42,8 @@ struct StepNumbers {
     MembraneWeight weight;
 };
 
-inline constexpr double surface_floor = 1e-8;    // [1/nm] added to δ, so that G, c and s are defined everywhere
+inline constexpr double weight_cut = 1e-4;       // of (1 − φ²)², below which δ_m is cut off
+inline constexpr double surface_floor = 1e-8;    // [1/nm] added to δ, so that G, μ and s are defined everywhere
 inline const double energy_norm = cut_norm({});  // 1/∫ δ²/(δ + f) dψ
 inline constexpr double moment_floor = 4e-5;     // [nm] continues b smoothly where the energy has no weight
 inline constexpr double force_alignment = 20;    // [ε²] keeps G constant along the normal
@@ -72,10 +73,12 @@ LayerProfile<Number> layer_profile(const Number& psi, double epsilon) {
     return {phi, (inverse_sqrt2 / epsilon) * well, delta, (-2 / (inverse_sqrt2 * epsilon)) * phi * delta, squared};
 }
 
-/// δ_m [1/nm] plus a floor: what lives on the membrane is defined everywhere.
+/// δ_m [1/nm] with its tails cut off: four ε from the membrane the alignment along the normals, weighted by δ, shall
+/// decide alone, for there normals may cross, and a step multiplies δ by up to exp(2√2 motion/ε).
 template <class Number>
 Number membrane_density(const LayerProfile<Number>& layer, const MembraneWeight& w) {
-    return layer.delta * (w.constant + w.square * (layer.phi * layer.phi)) + surface_floor;
+    const Number kept = layer.squared_well / (layer.squared_well + weight_cut);
+    return layer.delta * kept * (w.constant + w.square * (layer.phi * layer.phi));
 }
 
 /// β, C and their derivatives with respect to c as functions of c.
@@ -113,7 +116,7 @@ Number inverse_root(const Number& x) {
 template <class Number>
 struct PointGeometry {
     LayerProfile<Number> layer;
-    Number surface, density;                                        // δ, δ_m [1/nm], with floors
+    Number surface, density;                                        // δ with a floor, δ_m [1/nm]
     Number normal_r, normal_z, squared_gradient, inverse_gradient;  // n = ∇ψ/|∇ψ|; |∇ψ|²; 1/|∇ψ|
 };
 
@@ -173,7 +176,7 @@ Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     row[moment] = {w.value * (K - m.curvature) + w.first * mean, w.value * psi.r + smoothing * b.r,
                    w.value * psi.z + smoothing * b.z};
     const Number twist = w.first * b.value;
-    row[normal_force] = {p.density * x[normal_force].value +
+    row[normal_force] = {(p.density + surface_floor) * x[normal_force].value +
                              w.first * (psi.r * b.r + psi.z * b.z - m.curvature * b.value + density) +
                              w.second * mean * b.value,
                          w.value * b.r + twist * psi.r, w.value * b.z + twist * psi.z};

@@ -14,16 +14,16 @@ namespace endoflow::phasefield::production {
 namespace {
 
 constexpr std::size_t highest_order = 3;
-constexpr std::size_t normal_points = 2;  // times from which the normals are extrapolated
+constexpr std::size_t guess_points = 2;   // times from which Newton's method and the normals start
 constexpr double first_steps = 4;         // before the error can be estimated
 constexpr double error_part = 0.2;        // of time.tolerance for one step: the errors of the steps add up
 constexpr double safety = 0.85;           // of the step
 constexpr double largest_growth = 1.5;    // per step
 constexpr double tolerated_excess = 2;    // of the error over its tolerance, beyond which a step is repeated
 constexpr double newton_part = 0.01;      // of the step's tolerance to which Newton's method converges
-constexpr int most_iterations = 12;       // of Newton's method
-constexpr double slow_contraction = 0.2;  // of the changes from one iteration to the next: then new factors
-constexpr double misleading = 0.5;        // the same: then what old factors gave is dropped
+constexpr int most_iterations = 20;       // of Newton's method
+constexpr double slow_contraction = 0.5;  // of the changes by old factors: these are dropped and new factors taken
+constexpr double most_divergence = 10;    // of a change beyond the first one, where Newton's method gives up
 constexpr double smallest_step = 1e-5;    // of the first one
 constexpr double largest_motion = 1.5;    // of the membrane in one step, in units of ε
 
@@ -153,7 +153,7 @@ Vector ProductionScheme::polynomial(double time, std::size_t count) const {
 
 void ProductionScheme::solve(Vector& solution, const StepHistory& history) {
     const double wanted = newton_part * position_tolerance(parameters_);
-    double last = 1e300;
+    double last = 1e300, first = wanted;
     bool refactor = true;
     std::string changes;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
@@ -171,15 +171,16 @@ void ProductionScheme::solve(Vector& solution, const StepHistory& history) {
         char text[24];
         std::snprintf(text, sizeof text, refactor ? " %.1e" : " (%.1e)", change);
         changes += text;
-        if (!refactor && !(contraction < misleading)) {
+        if (!refactor && !(contraction < slow_contraction)) {
             refactor = true;
             continue;
         }
         solution += increment;
         solution.update_ghost_values();
         if (change <= wanted || (iteration > 0 && contraction < 0.5 && change * contraction <= 0.5 * wanted)) return;
-        if (!std::isfinite(change) || change > 10 * std::max(last, wanted)) break;
-        refactor = contraction > slow_contraction;
+        if (iteration == 0) first = std::max(first, change);
+        if (!std::isfinite(change) || change > most_divergence * first) break;
+        refactor = false;
         last = change;
     }
     throw SolverError("newton-divergence", "Newton's method changed ψ by" + changes + " nm",
@@ -190,14 +191,15 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     const double end = time + tau;
     const auto bdf = bdf_coefficients(end, times_, order());
     numbers_.rate = bdf.rate;
-    Vector predicted = polynomial(end, std::min(order() + 1, times_.size()));
-    impose_boundary_values(space_, parameters_, predicted);
-    trial_.reinit(predicted, true);  // assignment alone could keep the ghosts of an earlier mesh
-    trial_ = predicted;
+    const Vector predicted = polynomial(end, std::min(order() + 1, times_.size()));
+    // Extrapolation of higher order would amplify what little the fields go back and forth in the layer's tails: with
+    // the moment's noise, whose alignment is quadratic in it, Newton's first step would throw the whole bud off course.
+    Vector guess = polynomial(end, std::min(guess_points, times_.size()));
+    impose_boundary_values(space_, parameters_, guess);
+    trial_.reinit(guess, true);  // assignment alone could keep the ghosts of an earlier mesh
+    trial_ = guess;
     trial_.update_ghost_values();
-    // Further extrapolation would amplify what little the normals turn back and forth in the layer's tails.
-    const Vector aim = polynomial(end, std::min(normal_points, times_.size()));
-    solve(trial_, {&solutions_, bdf.past, &aim});
+    solve(trial_, {&solutions_, bdf.past, &guess});
 
     const auto measures = measure_solution(space_, model_, numbers_, solutions_.front(), predicted, trial_);
     trial_integrals_ = measures.integrals;
