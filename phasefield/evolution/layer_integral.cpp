@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "phasefield/evolution/boundary_flux.h"
 #include "phasefield/surface_transport/surface_transport.h"
 
 namespace endoflow::phasefield {
@@ -60,7 +61,7 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const Vector& flow_old, cons
     std::vector<double> coefficients;
     ScalarField phi_old;
     CoupledPoints points;
-    std::vector<double> sums(4, 0.0), maxima(3, 0.0);
+    std::vector<double> sums(5, 0.0), maxima(3, 0.0);
     for (const auto& cell : spaces.flow.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         const CellBox box = cell_box(cell);
@@ -78,6 +79,8 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const Vector& flow_old, cons
             sums[1] += w * p.viscosity * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
             sums[2] += w * numerics.mobility * g.value[q] * g.value[q];
             sums[3] += w * xi * p.phi.value * p.phi.value * (lambda.r[q] * lambda.r[q] + lambda.z[q] * lambda.z[q]);
+            sums[4] += w * (g.value[q] * p.phi.z +
+                            concentration_force(p.phi.value, p.moment, p.bending, epsilon).value * p.c_z);
             if (std::abs(p.phi.value) > layer_edge) continue;
             const double equilibrium = (1 - p.phi.value * p.phi.value) * inverse_sqrt2 / epsilon;
             const double gradient = std::max(std::hypot(phi_old.r[q], phi_old.z[q]), 0.1 * equilibrium);
@@ -89,7 +92,9 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const Vector& flow_old, cons
     const MPI_Comm communicator = spaces.flow.dofs.get_communicator();
     dealii::Utilities::MPI::sum(sums, communicator, sums);
     dealii::Utilities::MPI::max(maxima, communicator, maxima);
-    return {sums[0], sums[1], sums[2], sums[3], maxima[0], maxima[1], maxima[2]};
+    const double inflow =
+        extracellular_inflow(spaces.flow, state.flow, u_r, u_z, phi, [](double value) { return value; });
+    return {sums[0], sums[1], sums[2], sums[3], maxima[0], maxima[1], maxima[2], sums[4], inflow};
 }
 
 }  // namespace endoflow::phasefield

@@ -20,7 +20,9 @@ struct StepDiagnostics {
     double extension_dissipation;  // ∫ ξ ε² φ² |∇λ|²
     double area_strain_max;        // max |s − 1| on |φ| < 0.9
     double profile_error_max;  // max | √2 ε|∇φ|/(1 − φ²) − 1 | on |φ| < 0.9: how far the layer is from its thickness
-    double motion_max;  // max |φ − φⁿ|/|∇φⁿ| on |φ| < 0.9 [nm]
+    double motion_max;                // max |φ − φⁿ|/|∇φⁿ| on |φ| < 0.9 [nm]
+    double net_vertical_force = 0;    // of the membrane on the fluid [pN]; the pinned rim takes it up
+    double extracellular_inflow = 0;  // −∮ ½(1 + φ) u·n dA [nm³/µs]
 };
 StepDiagnostics diagnose_step(const Spaces& spaces, const Vector& flow_old, const State& state,
                               const Parameters& parameters);

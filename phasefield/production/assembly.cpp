@@ -1,5 +1,7 @@
 #include "phasefield/production/assembly.h"
 
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
@@ -133,36 +135,65 @@ unsigned int gauss_points(const PhaseFieldParameters& p) {
 
 namespace {
 
-/// The loop over cells: residual, and the Jacobian when Number carries derivatives.
-template <class Number>
-void assemble_cells(const Space& space, const EquationPattern& pattern, const BendingModel& model,
-                    const StepNumbers& step, const StepHistory& history, const Vector& iterate, LinearSystem& system) {
-    constexpr bool with_jacobian = std::is_same_v<Number, FeatureDual>;
-    const dealii::QGauss<2> quadrature(gauss_points(step.numerics));
-    LocalSystem local(space, quadrature);
-    HistoryFields past(space, quadrature, step, history);
-    const unsigned int n = space.element.n_dofs_per_cell();
-    dealii::FullMatrix<double> cell_matrix(with_jacobian ? n : 0, with_jacobian ? n : 0);
-    dealii::Vector<double> cell_rhs(n), cell_values(n);
-    std::vector<dealii::types::global_dof_index> indices(n);
-    std::vector<PointHistory> points(quadrature.size());
-    std::vector<Coefficients> residual(n_features, Coefficients(quadrature.size())),
-        jacobian(with_jacobian ? pattern.entries.size() : 0, Coefficients(quadrature.size()));
+/// The equations at the quadrature points of one cell after the other.
+class CellEquations {
+  public:
+    CellEquations(const Space& space, const BendingModel& model, const StepNumbers& step, const StepHistory& history,
+                  const Vector& iterate)
+        : quadrature(gauss_points(step.numerics)),
+          local(space, quadrature),
+          model_(&model),
+          step_(&step),
+          iterate_(&iterate),
+          past_(space, quadrature, step, history),
+          values_(space.element.n_dofs_per_cell()),
+          points_(quadrature.size()) {}
 
-    for (const auto& cell : space.dofs.active_cell_iterators()) {
-        if (!cell->is_locally_owned()) continue;
+    /// Calls visit(q, measure, rows) at the quadrature points of the cell; measure is r dr dz.
+    template <class Number, class Visit>
+    void on_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell, const Visit& visit) {
         const CellBox box = cell_box(cell);
-        cell->get_dof_indices(indices);
-        past.evaluate_cell(cell, box, points);
-        cell->get_dof_values(iterate, cell_values);
-        local.start(box, cell_values);
+        past_.evaluate_cell(cell, box, points_);
+        cell->get_dof_values(*iterate_, values_);
+        local.start(box, values_);
         for (unsigned int q = 0; q < quadrature.size(); ++q) {
             const double r = box.r0 + box.hr * quadrature.point(q)[0];
-            const double measure = quadrature.weight(q) * box.hr * box.hz * r;
             PointValues values;
             for (unsigned int f = 0; f < n_fields; ++f)
                 values[f] = {local.field(f).value[q], local.field(f).r[q], local.field(f).z[q]};
-            const auto rows = point_equations(fields_from<Number>(values), r, points[q], step, model);
+            visit(q, quadrature.weight(q) * box.hr * box.hz * r,
+                  point_equations(fields_from<Number>(values), r, points_[q], *step_, *model_));
+        }
+    }
+
+    const dealii::QGauss<2> quadrature;
+    LocalSystem local;
+
+  private:
+    const BendingModel* model_;
+    const StepNumbers* step_;
+    const Vector* iterate_;
+    HistoryFields past_;
+    dealii::Vector<double> values_;
+    std::vector<PointHistory> points_;
+};
+
+/// The loop over cells: residual, and the Jacobian when Number carries derivatives.
+template <class Number>
+void assemble_cells(const Space& space, const EquationPattern& pattern, CellEquations equations, LinearSystem& system) {
+    constexpr bool with_jacobian = std::is_same_v<Number, FeatureDual>;
+    LocalSystem& local = equations.local;
+    const unsigned int n = space.element.n_dofs_per_cell(), n_points = equations.quadrature.size();
+    dealii::FullMatrix<double> cell_matrix(with_jacobian ? n : 0, with_jacobian ? n : 0);
+    dealii::Vector<double> cell_rhs(n);
+    std::vector<dealii::types::global_dof_index> indices(n);
+    std::vector<Coefficients> residual(n_features, Coefficients(n_points)),
+        jacobian(with_jacobian ? pattern.entries.size() : 0, Coefficients(n_points));
+
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        cell->get_dof_indices(indices);
+        equations.on_cell<Number>(cell, [&](unsigned int q, double measure, const auto& rows) {
             for (unsigned int k = 0; k < n_features; ++k)
                 residual[k][q] = measure * value_of(feature(rows[k / 3], k % 3));
             if constexpr (with_jacobian)
@@ -170,7 +201,7 @@ void assemble_cells(const Space& space, const EquationPattern& pattern, const Be
                     const auto [row, column] = pattern.entries[k];
                     jacobian[k][q] = measure * feature(rows[row / 3], row % 3).partial[column];
                 }
-        }
+        });
         for (unsigned int k = 0; k < n_features; ++k) local.residual(k / 3, operations[k % 3], residual[k]);
         if constexpr (with_jacobian) {
             for (std::size_t k = 0; k < pattern.entries.size(); ++k) {
@@ -193,14 +224,26 @@ void assemble_cells(const Space& space, const EquationPattern& pattern, const Be
 void assemble(const Space& space, const EquationPattern& pattern, const BendingModel& model, const StepNumbers& step,
               const StepHistory& history, const Vector& iterate, LinearSystem& system) {
     system.start();
-    assemble_cells<FeatureDual>(space, pattern, model, step, history, iterate, system);
+    assemble_cells<FeatureDual>(space, pattern, CellEquations(space, model, step, history, iterate), system);
 }
 
 void assemble_residual(const Space& space, const EquationPattern& pattern, const BendingModel& model,
                        const StepNumbers& step, const StepHistory& history, const Vector& iterate,
                        LinearSystem& system) {
     system.right_hand_side = 0;
-    assemble_cells<double>(space, pattern, model, step, history, iterate, system);
+    assemble_cells<double>(space, pattern, CellEquations(space, model, step, history, iterate), system);
+}
+
+double net_vertical_force(const Space& space, const BendingModel& model, const StepNumbers& step,
+                          const StepHistory& history, const Vector& solution) {
+    CellEquations equations(space, model, step, history, solution);
+    double sum = 0;
+    for (const auto& cell : space.dofs.active_cell_iterators())
+        if (cell->is_locally_owned())
+            equations.on_cell<double>(cell, [&](unsigned int /*q*/, double measure, const auto& rows) {
+                sum -= 2 * dealii::numbers::PI * measure * rows[velocity_z].value;
+            });
+    return dealii::Utilities::MPI::sum(sum, space.dofs.get_communicator());
 }
 
 }  // namespace endoflow::phasefield::production

@@ -36,6 +36,10 @@ void assemble_residual(const Space& space, const EquationPattern& pattern, const
                        const StepNumbers& step, const StepHistory& history, const Vector& iterate,
                        LinearSystem& system);
 
+/// The membrane's net vertical force on the fluid [pN]: it balances what the pinned rim exerts. Collective.
+double net_vertical_force(const Space& space, const BendingModel& model, const StepNumbers& step,
+                          const StepHistory& history, const Vector& solution);
+
 /// Gauss points per direction.
 unsigned int gauss_points(const PhaseFieldParameters& parameters);
 

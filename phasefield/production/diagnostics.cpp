@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "phasefield/evolution/boundary_flux.h"
 #include "phasefield/production/assembly.h"
 
 namespace endoflow::phasefield::production {
@@ -91,8 +92,11 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
     const MPI_Comm communicator = space.dofs.get_communicator();
     dealii::Utilities::MPI::sum(sums, communicator, sums);
     dealii::Utilities::MPI::max(maxima, communicator, maxima);
-    return {
-        {sums[0], sums[1], sums[2]}, {sums[3], sums[4], sums[5], sums[6], maxima[0], maxima[1], maxima[2]}, maxima[3]};
+    const double inflow = extracellular_inflow(space, solution, velocity_r, velocity_z, distance,
+                                               [&](double psi) { return equilibrium_profile(psi, numerics.epsilon); });
+    return {{sums[0], sums[1], sums[2]},
+            {sums[3], sums[4], sums[5], sums[6], maxima[0], maxima[1], maxima[2], 0, inflow},
+            maxima[3]};
 }
 
 double layer_increment(const Space& space, double epsilon, const Vector& increment, const Vector& solution) {

@@ -199,9 +199,11 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     trial_.reinit(guess, true);  // assignment alone could keep the ghosts of an earlier mesh
     trial_ = guess;
     trial_.update_ghost_values();
-    solve(trial_, {&solutions_, bdf.past, &guess});
+    const StepHistory history{&solutions_, bdf.past, &guess};
+    solve(trial_, history);
 
-    const auto measures = measure_solution(space_, model_, numbers_, solutions_.front(), predicted, trial_);
+    auto measures = measure_solution(space_, model_, numbers_, solutions_.front(), predicted, trial_);
+    measures.diagnostics.net_vertical_force = net_vertical_force(space_, model_, numbers_, history, trial_);
     trial_integrals_ = measures.integrals;
     const double motion = measures.diagnostics.motion_max;
     const double farthest = largest_motion * parameters_.phase_field.epsilon;
