@@ -130,7 +130,7 @@ EquationPattern::EquationPattern(const Parameters& p, const BendingModel& model)
 }
 
 unsigned int gauss_points(const PhaseFieldParameters& p) {
-    return static_cast<unsigned int>(std::max({p.degree, p.velocity_degree, p.surface_degree})) + 2;
+    return static_cast<unsigned int>(std::max({p.degree, p.velocity_degree, p.surface_degree})) + 3;
 }
 
 namespace {
