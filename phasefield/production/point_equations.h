@@ -314,14 +314,16 @@ void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     }
 }
 
-/// (38): δ_m s is the membrane's material; where it enters at the rim s = 1.
+/// (38): δ_m s is the membrane's material; where it enters at the rim s = 1. The tension holds P:∇u to the average over
+/// a cell; what that leaves within one, most of it at the axis, diffuses as fast as ζ relaxes s.
 template <class Number>
 void add_stretching(const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past,
                     const StepNumbers& step, Fields<Number>& row) {
     const auto& s = x[membrane_stretch];
     add_transport(s.value, x, p, past, past.stretching, step, row[membrane_stretch]);
     add_alignment(s, past, within_a_step(step.numerics.stretching_alignment, step) * p.surface, row[membrane_stretch]);
-    add_diffusion(s, step.numerics.stretching_diffusivity * p.surface, row[membrane_stretch]);
+    const double smoothing = step.numerics.strain_relaxation * step.numerics.cell_size * step.numerics.cell_size;
+    add_diffusion(s, (step.numerics.stretching_diffusivity + smoothing) * p.surface, row[membrane_stretch]);
 }
 
 /// All rows at one point at radius r [nm].

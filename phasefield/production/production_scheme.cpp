@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t highest_order = 3;
 constexpr std::size_t guess_points = 2;   // times from which Newton's method and the normals start
 constexpr double first_steps = 4;         // before the error can be estimated
-constexpr double error_part = 0.2;        // of time.tolerance for one step: the errors of the steps add up
+constexpr double error_part = 0.05;       // of time.tolerance for one step: the errors of the steps add up
 constexpr double safety = 0.85;           // of the step
 constexpr double largest_growth = 1.5;    // per step
 constexpr double tolerated_excess = 2;    // of the error over its tolerance, beyond which a step is repeated
