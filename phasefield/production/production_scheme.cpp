@@ -19,8 +19,9 @@ constexpr double first_steps = 4;         // before the error can be estimated
 constexpr double error_part = 0.05;       // of time.tolerance for one step: the errors of the steps add up
 constexpr double safety = 0.85;           // of the step
 constexpr double largest_growth = 1.5;    // per step
+constexpr double almost_all = 0.7;        // of the time left: one step, or ever shorter ones would approach the end
 constexpr double tolerated_excess = 2;    // of the error over its tolerance, beyond which a step is repeated
-constexpr double newton_part = 0.01;      // of the step's tolerance to which Newton's method converges
+constexpr double newton_part = 0.002;     // of the step's tolerance to which Newton's method converges
 constexpr int most_iterations = 20;       // of Newton's method
 constexpr double slow_contraction = 0.5;  // of the changes by old factors: these are dropped and new factors taken
 constexpr double most_divergence = 10;    // of a change beyond the first one, where Newton's method gives up
@@ -139,7 +140,7 @@ std::size_t ProductionScheme::order() const {
 
 double ProductionScheme::step(double time, double deadline) const {
     const double left = deadline - time;
-    if (nominal_ >= left * (1 - 1e-9)) return left;
+    if (nominal_ >= almost_all * left) return left;
     return nominal_ >= 0.5 * left ? 0.5 * left : nominal_;  // no tiny last step
 }
 
