@@ -27,7 +27,7 @@ NEGATIVE_STIFFNESS = (3, "negative-stiffness")
 # The phase field costs more by far, so its layer is thicker and its runs are shorter.
 COMMON = {
     "boundary-integral": {"time.end": 0.1, "boundary_integral.threads": 1},
-    "phase-field": {"time.end": 0.002, "phase_field.epsilon": 2.4},
+    "phase-field": {"time.end": 0.0005},
 }
 MASS_TOLERANCE = {"boundary-integral": 1e-9, "phase-field": 1e-6}
 # Of the sharp engine: forces and motion belong to shapes that differ by the error of a step, time.tolerance = 1e-4; an
