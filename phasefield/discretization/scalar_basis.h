@@ -1,10 +1,14 @@
 #pragma once
 
+#include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature.h>
 
 #include <vector>
 
 namespace endoflow::phasefield {
+
+/// Integrals over r and z become those over the body of revolution.
+inline constexpr double two_pi = 2 * dealii::numbers::PI;
 
 /// Values and derivatives of the scalar Q_k shape functions at the quadrature points of the unit cell.
 /// All arrays are [q * n_dofs + i]. Cells are axis-aligned rectangles, so physical derivatives are these divided by the

@@ -1,18 +1,15 @@
 #include "phasefield/evolution/boundary_flux.h"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 
-#include "phasefield/discretization/scalar_basis.h"
+#include "phasefield/discretization/component_field.h"
 
 namespace endoflow::phasefield {
 
 namespace {
-
-constexpr double two_pi = 2 * dealii::numbers::PI;
 
 /// Gauss points on one face of the unit cell, as points of the cell.
 dealii::Quadrature<2> on_face(unsigned int face, unsigned int n) {
@@ -26,33 +23,37 @@ dealii::Quadrature<2> on_face(unsigned int face, unsigned int n) {
     return {points, gauss.get_weights()};
 }
 
+/// What flows through one of the four faces of a cell.
+struct Face {
+    Face(const Space& space, unsigned int number, unsigned int n, unsigned int velocity_r, unsigned int velocity_z,
+         unsigned int level)
+        : quadrature(on_face(number, n)),
+          normal_velocity(space, number < 2 ? velocity_r : velocity_z, quadrature),
+          level_set(space, level, quadrature) {}
+    dealii::Quadrature<2> quadrature;
+    ComponentField normal_velocity, level_set;
+};
+
 }  // namespace
 
 double extracellular_inflow(const Space& space, const Vector& solution, unsigned int velocity_r,
                             unsigned int velocity_z, unsigned int level, const std::function<double(double)>& phi_of) {
     const unsigned int n = *std::max_element(space.degrees.begin(), space.degrees.end()) + 2;
-    dealii::Vector<double> values(space.element.n_dofs_per_cell());
-    std::vector<double> coefficients;
-    ScalarField normal_velocity, psi;
+    std::vector<Face> faces;
+    for (unsigned int number = 0; number < 4; ++number)
+        faces.emplace_back(space, number, n, velocity_r, velocity_z, level);
     double sum = 0;
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned() || !cell->at_boundary()) continue;
         const CellBox box = cell_box(cell);
-        cell->get_dof_values(solution, values);
         for (const unsigned int face : cell->face_indices()) {
             if (!cell->face(face)->at_boundary() || cell->face(face)->boundary_id() == Boundary::axis) continue;
-            const auto quadrature = on_face(face, n);
-            const bool vertical = face < 2;  // its normal is ±e_r
-            const unsigned int component = vertical ? velocity_r : velocity_z;
-            component_values(space, component, values, coefficients);
-            evaluate(ScalarBasis(space.degrees[component], quadrature), box, coefficients, Derivatives::first,
-                     normal_velocity);
-            component_values(space, level, values, coefficients);
-            evaluate(ScalarBasis(space.degrees[level], quadrature), box, coefficients, Derivatives::first, psi);
-            const double outward = face % 2 == 1 ? 1 : -1, length = vertical ? box.hz : box.hr;
+            auto& [quadrature, velocity_field, level_set] = faces[face];
+            const auto &velocity = velocity_field.on(cell, box, solution), &psi = level_set.on(cell, box, solution);
+            const double outward = face % 2 == 1 ? 1 : -1, length = face < 2 ? box.hz : box.hr;
             for (unsigned int q = 0; q < n; ++q) {
                 const double r = box.r0 + box.hr * quadrature.point(q)[0];
-                sum -= two_pi * r * length * quadrature.weight(q) * outward * normal_velocity.value[q] * 0.5 *
+                sum -= two_pi * r * length * quadrature.weight(q) * outward * velocity.value[q] * 0.5 *
                        (1 + phi_of(psi.value[q]));
             }
         }

@@ -1,12 +1,12 @@
 #include "phasefield/evolution/layer_integral.h"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "phasefield/discretization/component_field.h"
 #include "phasefield/evolution/boundary_flux.h"
 #include "phasefield/surface_transport/surface_transport.h"
 
@@ -15,17 +15,13 @@ namespace endoflow::phasefield {
 namespace {
 
 constexpr double layer_edge = 0.9;  // |φ| below this is the layer
-constexpr double two_pi = 2 * dealii::numbers::PI;
 
 }  // namespace
 
 LayerIntegrals integrate_layer(const Spaces& spaces, const State& state, const Parameters& parameters) {
     const dealii::QGauss<2> quadrature(quadrature_points(parameters.phase_field));
     OldFields fields(spaces, parameters, quadrature);
-    const ScalarBasis molecule_basis(spaces.molecules.degrees[0], quadrature);
-    dealii::Vector<double> molecule_values(spaces.molecules.element.n_dofs_per_cell());
-    std::vector<double> coefficients;
-    ScalarField c;
+    ComponentField molecules(spaces.molecules, concentration, quadrature);
     CoupledPoints points;
     std::vector<double> sums(3, 0.0);
     for (const auto& cell : spaces.flow.dofs.active_cell_iterators()) {
@@ -33,9 +29,7 @@ LayerIntegrals integrate_layer(const Spaces& spaces, const State& state, const P
         fields.evaluate_cell(cell, state, points);
         const dealii::DoFHandler<2>::active_cell_iterator molecule_cell(&cell->get_triangulation(), cell->level(),
                                                                         cell->index(), &spaces.molecules.dofs);
-        molecule_cell->get_dof_values(state.molecules, molecule_values);
-        component_values(spaces.molecules, concentration, molecule_values, coefficients);
-        evaluate(molecule_basis, cell_box(cell), coefficients, Derivatives::first, c);
+        const ScalarField& c = molecules.on(molecule_cell, cell_box(cell), state.molecules);
         for (std::size_t q = 0; q < points.size(); ++q) {
             const auto& p = points[q];
             const double weight =
@@ -56,19 +50,15 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const Vector& flow_old, cons
     const dealii::QGauss<2> quadrature(quadrature_points(numerics));
     OldFields fields(spaces, parameters, quadrature);
     LocalSystem now(spaces.flow, quadrature);
-    const ScalarBasis phi_basis(spaces.flow.degrees[phi], quadrature);
+    ComponentField old_level_set(spaces.flow, phi, quadrature);
     dealii::Vector<double> values(spaces.flow.element.n_dofs_per_cell());
-    std::vector<double> coefficients;
-    ScalarField phi_old;
     CoupledPoints points;
     std::vector<double> sums(5, 0.0), maxima(3, 0.0);
     for (const auto& cell : spaces.flow.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         const CellBox box = cell_box(cell);
         fields.evaluate_cell(cell, state, points);
-        cell->get_dof_values(flow_old, values);
-        component_values(spaces.flow, phi, values, coefficients);
-        evaluate(phi_basis, box, coefficients, Derivatives::first, phi_old);
+        const ScalarField& phi_old = old_level_set.on(cell, box, flow_old);
         cell->get_dof_values(state.flow, values);
         now.start(box, values);
         const auto &ur = now.field(u_r), &uz = now.field(u_z), &lambda = now.field(tension), &g = now.field(force);

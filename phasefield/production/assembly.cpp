@@ -1,7 +1,6 @@
 #include "phasefield/production/assembly.h"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
@@ -58,7 +57,7 @@ class HistoryFields {
         // The predicted normal in the layer; the last one far from it, where extrapolation would amplify what is there.
         cell->get_dof_values(history_->solutions->front(), values_);
         field(distance, box, psi_);
-        cell->get_dof_values(*history_->predictor, values_);
+        cell->get_dof_values(*history_->extrapolated, values_);
         field(distance, box, predicted_, Derivatives::second);
         for (std::size_t q = 0; q < points.size(); ++q) {
             const double well = layer_profile(psi_.value[q], step_->numerics.epsilon).squared_well;
@@ -241,7 +240,7 @@ double net_vertical_force(const Space& space, const BendingModel& model, const S
     for (const auto& cell : space.dofs.active_cell_iterators())
         if (cell->is_locally_owned())
             equations.on_cell<double>(cell, [&](unsigned int /*q*/, double measure, const auto& rows) {
-                sum -= 2 * dealii::numbers::PI * measure * rows[velocity_z].value;
+                sum -= two_pi * measure * rows[velocity_z].value;
             });
     return dealii::Utilities::MPI::sum(sum, space.dofs.get_communicator());
 }

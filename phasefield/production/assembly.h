@@ -9,11 +9,12 @@
 
 namespace endoflow::phasefield::production {
 
-/// The past of a step: solutions newest first with their BDF weights, and the predictor.
+/// The past of a step: solutions newest first with their BDF weights, and the straight line through the last two, which
+/// gives the normals.
 struct StepHistory {
     const std::vector<Vector>* solutions;
     std::vector<double> weights;  // [1/µs]
-    const Vector* predictor;
+    const Vector* extrapolated;
 };
 
 /// Which rows contain which fields, found by differentiating the equations once.

@@ -1,13 +1,12 @@
 #include "phasefield/production/diagnostics.h"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "phasefield/evolution/boundary_flux.h"
+#include "phasefield/discretization/component_field.h"
 #include "phasefield/production/assembly.h"
 
 namespace endoflow::phasefield::production {
@@ -15,32 +14,6 @@ namespace endoflow::phasefield::production {
 namespace {
 
 constexpr double layer_edge = 0.9;  // |φ| below this is the layer
-constexpr double two_pi = 2 * dealii::numbers::PI;
-
-/// One component of a vector at the quadrature points, cell by cell.
-class ComponentField {
-  public:
-    ComponentField(const Space& space, unsigned int component, const dealii::Quadrature<2>& quadrature)
-        : space_(&space),
-          component_(component),
-          basis_(space.degrees[component], quadrature),
-          values_(space.element.n_dofs_per_cell()) {}
-    const ScalarField& on(const dealii::DoFHandler<2>::active_cell_iterator& cell, const CellBox& box,
-                          const Vector& vector) {
-        cell->get_dof_values(vector, values_);
-        component_values(*space_, component_, values_, coefficients_);
-        evaluate(basis_, box, coefficients_, Derivatives::first, field_);
-        return field_;
-    }
-
-  private:
-    const Space* space_;
-    unsigned int component_;
-    ScalarBasis basis_;
-    dealii::Vector<double> values_;
-    std::vector<double> coefficients_;
-    ScalarField field_;
-};
 
 }  // namespace
 
@@ -92,11 +65,8 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
     const MPI_Comm communicator = space.dofs.get_communicator();
     dealii::Utilities::MPI::sum(sums, communicator, sums);
     dealii::Utilities::MPI::max(maxima, communicator, maxima);
-    const double inflow = extracellular_inflow(space, solution, velocity_r, velocity_z, distance,
-                                               [&](double psi) { return equilibrium_profile(psi, numerics.epsilon); });
-    return {{sums[0], sums[1], sums[2]},
-            {sums[3], sums[4], sums[5], sums[6], maxima[0], maxima[1], maxima[2], 0, inflow},
-            maxima[3]};
+    return {
+        {sums[0], sums[1], sums[2]}, {sums[3], sums[4], sums[5], sums[6], maxima[0], maxima[1], maxima[2]}, maxima[3]};
 }
 
 double layer_increment(const Space& space, double epsilon, const Vector& increment, const Vector& solution) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "phasefield/evolution/boundary_flux.h"
 #include "phasefield/io/field_output.h"
 #include "phasefield/production/bdf.h"
 #include "shared/model/initial_condition.h"
@@ -205,6 +206,9 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
 
     auto measures = measure_solution(space_, model_, numbers_, solutions_.front(), predicted, trial_);
     measures.diagnostics.net_vertical_force = net_vertical_force(space_, model_, numbers_, history, trial_);
+    measures.diagnostics.extracellular_inflow =
+        extracellular_inflow(space_, trial_, velocity_r, velocity_z, distance,
+                             [this](double psi) { return equilibrium_profile(psi, parameters_.phase_field.epsilon); });
     trial_integrals_ = measures.integrals;
     const double motion = measures.diagnostics.motion_max;
     const double farthest = largest_motion * parameters_.phase_field.epsilon;

@@ -24,7 +24,7 @@ BAD_INPUT = (2, "domain.membrane_height")
 NEAR_WALL = (3, "membrane-near-wall")
 NEGATIVE_STIFFNESS = (3, "negative-stiffness")
 
-# The phase field costs more by far, so its layer is thicker and its runs are shorter.
+# The phase field costs more by far, so its runs are shorter.
 COMMON = {
     "boundary-integral": {"time.end": 0.1, "boundary_integral.threads": 1},
     "phase-field": {"time.end": 0.0005},
