@@ -50,6 +50,8 @@ class HistoryFields {
     void evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell, const CellBox& box,
                        std::vector<PointHistory>& points) {
         std::fill(points.begin(), points.end(), PointHistory{});
+        slope_r_.assign(points.size(), 0);
+        slope_z_.assign(points.size(), 0);
         for (std::size_t j = 0; j < history_->weights.size(); ++j) {
             cell->get_dof_values((*history_->solutions)[j], values_);
             add_past(box, history_->weights[j], points);
@@ -66,6 +68,7 @@ class HistoryFields {
             const double length = std::max(std::hypot(r, z), shortest_gradient);
             points[q].normal_r = r / length;
             points[q].normal_z = z / length;
+            points[q].slope = points[q].normal_r * slope_r_[q] + points[q].normal_z * slope_z_[q];
             points[q].change_r = (r * predicted_.rr[q] + z * predicted_.rz[q]) / length;
             points[q].change_z = (r * predicted_.rz[q] + z * predicted_.zz[q]) / length;
         }
@@ -87,6 +90,8 @@ class HistoryFields {
             const auto layer = layer_profile(psi_.value[q], step_->numerics.epsilon);
             const double density = membrane_density(layer, step_->weight);
             points[q].distance += weight * psi_.value[q];
+            slope_r_[q] += weight * psi_.r[q];
+            slope_z_[q] += weight * psi_.z[q];
             points[q].molecules += weight * density * c_.value[q];
             points[q].stretching += weight * density * s_.value[q];
             points[q].velocity_r += weight * u_r_.value[q];
@@ -99,7 +104,7 @@ class HistoryFields {
     const StepHistory* history_;
     std::map<unsigned int, ScalarBasis> bases_;
     dealii::Vector<double> values_;
-    std::vector<double> coefficients_;
+    std::vector<double> coefficients_, slope_r_, slope_z_;
     ScalarField psi_, predicted_, c_, s_, u_r_, u_z_;
 };
 

@@ -1,10 +1,8 @@
 #include <deal.II/distributed/solution_transfer.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "phasefield/io/mesh_checkpoint.h"
 #include "phasefield/production/production_scheme.h"
+#include "phasefield/production/refinement.h"
 
 namespace endoflow::phasefield::production {
 
@@ -12,9 +10,7 @@ namespace {
 
 using Transfer = dealii::parallel::distributed::SolutionTransfer<2, Vector>;
 
-constexpr double edge_cells = 0.75;  // largest cell at the patch's edge, in units of its width
-constexpr double edge_band = 3;      // half-width of the finer cells there, in units of ε
-constexpr int most_passes = 8;       // a cell changes by one level per pass
+constexpr int most_passes = 8;  // a cell changes by one level per pass
 
 std::vector<const Vector*> addresses(const std::vector<Vector>& vectors) {
     std::vector<const Vector*> out;
@@ -24,22 +20,8 @@ std::vector<const Vector*> addresses(const std::vector<Vector>& vectors) {
 
 }  // namespace
 
-std::vector<RefinedBand> ProductionScheme::bands(const MembraneCurve& curve) const {
-    const auto& p = parameters_.phase_field;
-    const auto finest = static_cast<unsigned int>(p.far_refinements);
-    std::vector<RefinedBand> out{{positions(curve), finest, band(), band() + 2 * p.cell_size}};
-    const double wanted = edge_cells * parameters_.molecules.interface_width;
-    const auto extra = static_cast<unsigned int>(std::max(0.0, std::ceil(std::log2(p.cell_size / wanted))));
-    if (extra == 0) return out;
-    std::vector<PlanePoint> edge;
-    for (std::size_t i = 0; i < curve.size(); ++i)
-        if (std::abs(curve.c[i] - 0.5) < 0.49) edge.push_back({curve.r[i], curve.z[i]});
-    out.push_back({std::move(edge), finest + extra, edge_band * p.epsilon, edge_band * p.epsilon + p.cell_size});
-    return out;
-}
-
 bool ProductionScheme::adapt_once(const MembraneCurve& curve) {
-    if (!flag_bands(*mesh_, bands(curve))) return false;
+    if (!flag_bands(*mesh_, refined_bands(curve, parameters_))) return false;
 
     Transfer transfer(space_.dofs);
     transfer.prepare_for_coarsening_and_refinement(addresses(solutions_));
@@ -79,6 +61,7 @@ void ProductionScheme::follow(const MembraneCurve& curve) {
 
 void ProductionScheme::save(const std::filesystem::path& directory, Checkpoint& checkpoint) {
     checkpoint.scalars["nominal_step"] = nominal_;
+    checkpoint.scalars["speed"] = speed_;
     checkpoint.scalars["moved"] = moved_;
     checkpoint.scalars["steps_since_start"] = since_start_;
     checkpoint.arrays["solution_times"] = times_;
@@ -91,6 +74,7 @@ void ProductionScheme::save(const std::filesystem::path& directory, Checkpoint& 
 
 StepOutcome ProductionScheme::load(const std::filesystem::path& directory, const Checkpoint& checkpoint) {
     nominal_ = checkpoint.scalar("nominal_step");
+    speed_ = checkpoint.scalar("speed");
     moved_ = checkpoint.scalar("moved");
     since_start_ = checkpoint.scalar("steps_since_start");
     times_ = checkpoint.array("solution_times");

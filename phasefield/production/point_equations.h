@@ -30,6 +30,7 @@ struct PointHistory {
     double stretching = 0;  // of δ_m s
     double velocity_r = 0, velocity_z = 0;
     double normal_r = 0, normal_z = 0;  // n = ∇ψ/|∇ψ|
+    double slope = 0;                   // n·∇Σ_j a_j ψ(t_j)
     double change_r = 0, change_z = 0;  // n·∇∇ψ [1/nm]: 0 where ψ is a distance
 };
 
@@ -40,6 +41,7 @@ struct StepNumbers {
     FluidParameters fluid;
     MoleculeParameters molecules;
     MembraneWeight weight;
+    double profile_relaxation = numerics.profile_relaxation;  // M of this step [nm/µs]
 };
 
 inline constexpr double weight_cut = 1e-4;       // of (1 − φ²)², below which δ_m is cut off
@@ -48,7 +50,7 @@ inline const double energy_norm = cut_norm({});  // 1/∫ δ²/(δ + f) dψ
 inline constexpr double moment_floor = 4e-5;     // [nm] continues b smoothly where the energy has no weight
 inline constexpr double force_alignment = 20;    // [ε²] keeps G constant along the normal
 inline constexpr double moment_alignment = 20;   // [ε²] the same for b
-inline constexpr double step_alignment = 20;     // [ε² per step] the same for c, s and ψ
+inline constexpr double step_alignment = 20;     // [ε² per step] the same for c and s, and of ∂ψ/∂t
 inline constexpr double profile_floor = 1e-5;    // the same for the flux that keeps |∇ψ| = 1
 inline constexpr double alignment_floor = 1e-4;  // the same for λ
 inline constexpr double far_smoothing = 1.02;    // 1/|∇ψ| far from the layer, where ψ solves a Poisson equation
@@ -259,18 +261,20 @@ inline double within_a_step(double diffusivity, const StepNumbers& step) {
     return diffusivity + step_alignment * step.numerics.epsilon * step.numerics.epsilon * step.rate;
 }
 
-/// (35): δ_m ( ∂ψ/∂t + u·∇ψ ) = −(mobility) δ_m G, and |∇ψ| = 1 is kept by a flux along the normal, M ε δ (n·∇ψ − 1) n.
-/// That flux conserves ∫H, so it does not move the membrane. Far from the layer ψ solves ∇·(a ∇ψ − n) = 0 with the last
-/// normals n, a a little above 1: normals may cross there. Divided by max δ.
+/// (35): δ_m ( ∂ψ/∂t + u·∇ψ ) = −(mobility) δ_m G. |∇ψ| = 1 is kept by fluxes along the normal. They conserve ∫H, so
+/// they do not move the membrane. 20 ε² δ n·∇(∂ψ/∂t) vanishes for distance functions however they move and outweighs
+/// δ_m where that is negative; M ε δ (n·∇ψ − 1) restores what is lost. Far from the layer ψ solves ∇·(a ∇ψ − n) = 0
+/// with the last normals n, a a little above 1: normals may cross there. Divided by max δ.
 template <class Number>
 void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past,
                 const StepNumbers& step, Fields<Number>& row) {
     const auto& psi = x[distance];
     const double epsilon = step.numerics.epsilon, length = epsilon / (0.75 * inverse_sqrt2);  // 1/max δ
     const Number weight = length * p.density;
-    const double lasting = step.numerics.profile_relaxation * epsilon, relaxation = within_a_step(lasting, step);
-    const Number flux = relaxation * p.layer.squared_well * (past.normal_r * psi.r + past.normal_z * psi.z - 1.0);
-    const double far = lasting * profile_floor;
+    const Number slope = past.normal_r * psi.r + past.normal_z * psi.z, changing = step.rate * slope + past.slope;
+    const Number flux = p.layer.squared_well * ((step_alignment * epsilon * epsilon) * changing +
+                                                (step.profile_relaxation * epsilon) * (slope - 1.0));
+    const double far = step.numerics.profile_relaxation * epsilon * profile_floor;
     Number rate =
         weight * (step.rate * psi.value + past.distance + x[velocity_r].value * psi.r + x[velocity_z].value * psi.z);
     if (step.fluid.dynamics == Dynamics::geometric) rate += step.fluid.normal_mobility * weight * x[normal_force].value;

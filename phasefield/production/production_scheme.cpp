@@ -7,6 +7,7 @@
 #include "phasefield/evolution/boundary_flux.h"
 #include "phasefield/io/field_output.h"
 #include "phasefield/production/bdf.h"
+#include "phasefield/production/refinement.h"
 #include "shared/model/initial_condition.h"
 #include "shared/support/error.h"
 
@@ -15,19 +16,20 @@ namespace endoflow::phasefield::production {
 namespace {
 
 constexpr std::size_t highest_order = 3;
-constexpr std::size_t guess_points = 2;   // times from which Newton's method and the normals start
-constexpr double first_steps = 4;         // before the error can be estimated
-constexpr double error_part = 0.05;       // of time.tolerance for one step: the errors of the steps add up
-constexpr double safety = 0.85;           // of the step
-constexpr double largest_growth = 1.5;    // per step
-constexpr double almost_all = 0.7;        // of the time left: one step, or ever shorter ones would approach the end
-constexpr double tolerated_excess = 2;    // of the error over its tolerance, beyond which a step is repeated
-constexpr double newton_part = 0.002;     // of the step's tolerance to which Newton's method converges
-constexpr int most_iterations = 20;       // of Newton's method
-constexpr double slow_contraction = 0.5;  // of the changes by old factors: these are dropped and new factors taken
-constexpr double most_divergence = 10;    // of a change beyond the first one, where Newton's method gives up
-constexpr double smallest_step = 1e-5;    // of the first one
-constexpr double largest_motion = 1.5;    // of the membrane in one step, in units of ε
+constexpr std::size_t guess_points = 2;       // times from which Newton's method and the normals start
+constexpr double first_steps = 4;             // before the error can be estimated
+constexpr double error_part = 0.05;           // of time.tolerance for one step: the errors of the steps add up
+constexpr double safety = 0.85;               // of the step
+constexpr double largest_growth = 1.5;        // per step
+constexpr double almost_all = 0.7;            // of the time left: one step, or ever shorter ones would approach the end
+constexpr double tolerated_excess = 2;        // of the error over its tolerance, beyond which a step is repeated
+constexpr double newton_part = 0.002;         // of the step's tolerance to which Newton's method converges
+constexpr int most_iterations = 20;           // of Newton's method
+constexpr double slow_contraction = 0.5;      // of the changes by old factors: these are dropped and new factors taken
+constexpr double most_divergence = 10;        // of a change beyond the first one, where Newton's method gives up
+constexpr double smallest_step = 1e-5;        // of the first one
+constexpr double relaxation_per_speed = 200;  // M is at most this many times the speed of the membrane
+constexpr double largest_motion = 1.5;        // of the membrane in one step, in units of ε
 
 /// Largest error of the membrane's position per step [nm].
 double position_tolerance(const Parameters& p) {
@@ -75,10 +77,6 @@ class PhysicalFields : public dealii::DataPostprocessor<2> {
 
 }  // namespace
 
-double ProductionScheme::band() const {
-    return parameters_.phase_field.band_width * parameters_.phase_field.epsilon;
-}
-
 void ProductionScheme::distribute() {
     space_.distribute();
     close_constraints(space_, parameters_);
@@ -110,7 +108,7 @@ StepOutcome ProductionScheme::start() {
         curve.z.push_back(z0);
         curve.c.push_back(initial_concentration(parameters_.molecules, r));
     }
-    while (flag_bands(*mesh_, bands(curve))) mesh_->execute_coarsening_and_refinement();
+    while (flag_bands(*mesh_, refined_bands(curve, parameters_))) mesh_->execute_coarsening_and_refinement();
     renew();
 
     Vector solution = space_.vector();
@@ -193,6 +191,9 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     const double end = time + tau;
     const auto bdf = bdf_coefficients(end, times_, order());
     numbers_.rate = bdf.rate;
+    numbers_.profile_relaxation = parameters_.phase_field.profile_relaxation;
+    if (since_start_ > 0)
+        numbers_.profile_relaxation = std::min(numbers_.profile_relaxation, relaxation_per_speed * speed_);
     const Vector predicted = polynomial(end, std::min(order() + 1, times_.size()));
     // Extrapolation of higher order would amplify what little the fields go back and forth in the layer's tails: with
     // the moment's noise, whose alignment is quadratic in it, Newton's first step would throw the whole bud off course.
@@ -245,6 +246,7 @@ void ProductionScheme::keep(double time, double tau, const StepOutcome& outcome)
     const double next = trial_factor_ * tau;
     nominal_ = tau < nominal_ && trial_factor_ >= 1 ? std::max(nominal_, next) : next;
     nominal_ = std::min(nominal_, parameters_.time.max_step);
+    speed_ = outcome.diagnostics.motion_max / tau;
     moved_ += outcome.diagnostics.motion_max;
     since_start_ += 1;
 }

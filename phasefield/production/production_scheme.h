@@ -35,7 +35,6 @@ class ProductionScheme : public Scheme {
   private:
     void distribute();
     void renew();
-    [[nodiscard]] std::vector<RefinedBand> bands(const MembraneCurve& curve) const;
     bool adapt_once(const MembraneCurve& curve);
     /// The polynomial through the newest `count` solutions.
     [[nodiscard]] Vector polynomial(double time, std::size_t count) const;
@@ -44,7 +43,6 @@ class ProductionScheme : public Scheme {
     [[nodiscard]] Contour contour(const Vector& solution) const;
     /// Measures the newest solution: renews integrals_ and returns the rest.
     StepOutcome present();
-    [[nodiscard]] double band() const;
 
     Parameters parameters_;
     BendingModel model_;
@@ -62,6 +60,7 @@ class ProductionScheme : public Scheme {
     double trial_factor_ = 1;  // by which the step may grow
 
     double nominal_;          // the next step [µs]
+    double speed_ = 0;        // of the membrane in the last step [nm/µs]
     double moved_ = 0;        // since the mesh was made [nm]
     double since_start_ = 0;  // steps taken
 };

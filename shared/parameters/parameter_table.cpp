@@ -212,7 +212,7 @@ std::vector<ParameterRow> phase_field_rows() {
         row("phase_field", "max_motion", &P::phase_field, &S::max_motion, "nm", positive(1e3), "",
             "scheme paper: largest motion of the membrane within one time step"),
         row("phase_field", "profile_relaxation", &P::phase_field, &S::profile_relaxation, "nm/µs", positive(1e9), "M",
-            "scheme production: flux along the normal that keeps |∇ψ| = 1 without moving the membrane"),
+            "scheme production: flux along the normal that keeps |∇ψ| = 1, at most 200 times the membrane's speed"),
         row("phase_field", "tension_alignment", &P::phase_field, &S::tension_alignment, "nm^3/(pN µs)", positive(1e9),
             "", "scheme production: keeps λ constant across the layer"),
         row("phase_field", "tension_leak", &P::phase_field, &S::tension_leak, "nm^3/(pN µs)", positive(1e6), "",

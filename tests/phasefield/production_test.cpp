@@ -77,6 +77,7 @@ TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
             past.normal_z = 0.8;
             past.change_r = 0.3;
             past.change_z = -0.2;
+            past.slope = 0.1;
             const auto x = some_point();
             Fields<Dual<n_features>> seeded;
             for (std::size_t k = 0; k < n_features; ++k) {

@@ -1,0 +1,71 @@
+// Where the production scheme's mesh is fine.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "phasefield/production/refinement.h"
+
+using namespace endoflow;
+using namespace endoflow::phasefield;
+using namespace endoflow::phasefield::production;
+
+namespace {
+
+constexpr double cell_size = 2;  // [nm]
+
+/// A sphere's cap of 20 nm above a neck r = a cosh(z/a) that ends at r = 30 nm.
+MembraneCurve bud_on_neck(double neck_radius) {
+    MembraneCurve curve;
+    for (double angle = 0; angle < 2; angle += 0.02) {
+        curve.r.push_back(20 * std::sin(angle));
+        curve.z.push_back(100 + 20 * std::cos(angle));
+    }
+    const double reach = std::acosh(30 / neck_radius);
+    for (double s = 0.8 * reach; s > -reach; s -= 0.01) {
+        curve.r.push_back(neck_radius * std::cosh(s));
+        curve.z.push_back(60 + neck_radius * s);
+    }
+    curve.c.assign(curve.r.size(), 1);
+    return curve;
+}
+
+Parameters with_cells() {
+    Parameters p;
+    p.phase_field.cell_size = cell_size;
+    p.molecules.interface_width = 10;  // no finer cells for the patch's edge
+    return p;
+}
+
+/// The size of the smallest cell that `bands` ask for at a point.
+double wanted_size(const std::vector<RefinedBand>& bands, const Parameters& p, double r, double z) {
+    unsigned int level = 0;
+    for (const auto& band : bands)
+        if (distance_to_cell({r, z, 0, 0}, band.curve) < band.inner) level = std::max(level, band.level);
+    return cell_size * std::exp2(static_cast<double>(p.phase_field.far_refinements) - level);
+}
+
+}  // namespace
+
+TEST_CASE("cells are a quarter of the neck's radius and no finer at the bud's tip", "[refinement]") {
+    const Parameters p = with_cells();
+    for (const double neck : {7.5, 3.5, 1.7}) {
+        const auto bands = refined_bands(bud_on_neck(neck), p);
+        const double at_neck = wanted_size(bands, p, neck, 60);
+        CHECK(at_neck <= 0.25 * neck);
+        CHECK(at_neck > 0.125 * neck);  // halving stops there
+        CHECK(wanted_size(bands, p, 0, 120) == cell_size);
+        CHECK(wanted_size(bands, p, 20, 100) == cell_size);
+    }
+    CHECK(wanted_size(refined_bands(bud_on_neck(8.5), p), p, 8.5, 60) == cell_size);
+}
+
+TEST_CASE("cells are finer at the patch's edge alone", "[refinement]") {
+    Parameters p = with_cells();
+    p.molecules.interface_width = 1;
+    auto curve = bud_on_neck(12);
+    for (std::size_t i = 0; i < curve.size(); ++i) curve.c[i] = curve.z[i] > 100 ? 0.985 : curve.z[i] > 98 ? 0.5 : 0.01;
+    const auto bands = refined_bands(curve, p);
+    CHECK(wanted_size(bands, p, 20, 99) <= 0.75);
+    CHECK(wanted_size(bands, p, 0, 120) == cell_size);  // c is not quite 1 in the patch
+    CHECK(wanted_size(bands, p, 12, 60) == cell_size);
+}
