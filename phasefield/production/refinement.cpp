@@ -9,11 +9,11 @@ namespace endoflow::phasefield::production {
 
 namespace {
 
-constexpr double edge_cells = 0.75;  // largest cell at the patch's edge, in units of its width
-constexpr double edge_part = 0.47;   // |c − ½| below this is the edge: in the bud 1 − c comes to 0.016
-constexpr double fine_band = 3;      // half-width of the finer cells, in units of ε
-constexpr double neck_cells = 0.25;  // largest cell where the membrane is narrow, in units of its radius there
-constexpr unsigned int most_neck_levels = 3;
+constexpr double edge_cells = 0.75;           // largest cell at the patch's edge, in units of its width
+constexpr double edge_part = 0.47;            // |c − ½| below this is the edge: in the bud 1 − c comes to 0.016
+constexpr double fine_band = 3;               // half-width of the finer cells, in units of ε
+constexpr double neck_cells = 0.25;           // largest cell where the membrane is narrow, in units of its radius there
+constexpr unsigned int most_neck_levels = 2;  // with cells of 4/3 ε: necks below 1.4 ε have left the model anyway
 
 /// Points where the membrane's radius of curvature around the axis is below `radius` [nm].
 std::vector<PlanePoint> narrow_part(const MembraneCurve& curve, double radius) {

@@ -48,7 +48,7 @@ double wanted_size(const std::vector<RefinedBand>& bands, const Parameters& p, d
 
 TEST_CASE("cells are a quarter of the neck's radius and no finer at the bud's tip", "[refinement]") {
     const Parameters p = with_cells();
-    for (const double neck : {7.5, 3.5, 1.7}) {
+    for (const double neck : {7.5, 5.0, 3.5, 2.1}) {
         const auto bands = refined_bands(bud_on_neck(neck), p);
         const double at_neck = wanted_size(bands, p, neck, 60);
         CHECK(at_neck <= 0.25 * neck);
@@ -57,6 +57,7 @@ TEST_CASE("cells are a quarter of the neck's radius and no finer at the bud's ti
         CHECK(wanted_size(bands, p, 20, 100) == cell_size);
     }
     CHECK(wanted_size(refined_bands(bud_on_neck(8.5), p), p, 8.5, 60) == cell_size);
+    CHECK(wanted_size(refined_bands(bud_on_neck(1.0), p), p, 1, 60) == 0.25 * cell_size);
 }
 
 TEST_CASE("cells are finer at the patch's edge alone", "[refinement]") {
