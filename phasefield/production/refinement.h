@@ -9,8 +9,8 @@ namespace endoflow::phasefield::production {
 
 /// Where the mesh is fine: around the whole membrane, finer at the patch's edge (three quarters of its width) and where
 /// the membrane is narrow (a quarter of its radius of curvature around the axis, r/|n_r|, but at least a quarter of
-/// `cell_size`): normals fan out there, and
-/// on coarser cells what varies along the membrane within one of them drives flows that carry most of the dissipation.
+/// `cell_size`): normals fan out there, and on coarser cells what varies along the membrane within one of them drives
+/// flows that carry most of the dissipation.
 std::vector<RefinedBand> refined_bands(const MembraneCurve& curve, const Parameters& parameters);
 
 }  // namespace endoflow::phasefield::production
