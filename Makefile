@@ -65,7 +65,7 @@ test: test-packages
 	@$(MAKE) --no-print-directory configure
 	cmake --build $(build)
 	@$(MAKE) --no-print-directory lint
-	ctest --test-dir $(build) --output-on-failure $(tests)
+	ctest --test-dir $(build) --output-on-failure --timeout 3600 $(tests)
 
 bench: build
 	cmake --build $(build) --target bench-ring-kernels

@@ -18,7 +18,7 @@ PROGRAM = None
 
 
 def endoflow(*arguments, cwd=None):
-    return subprocess.run([PROGRAM, *map(str, arguments)], cwd=cwd, capture_output=True, text=True, timeout=120)
+    return subprocess.run([PROGRAM, *map(str, arguments)], cwd=cwd, capture_output=True, text=True, timeout=1200)
 
 
 class CommandLine(unittest.TestCase):
@@ -143,7 +143,7 @@ class CommandLine(unittest.TestCase):
                         break
                     time.sleep(0.1)
                 run.send_signal(number)
-                run.communicate(timeout=120)
+                run.communicate(timeout=1200)
                 self.assertEqual(run.returncode, code)
                 reached = json.loads((output / "run.json").read_text())["time_us"]
                 result = endoflow("run", "boundary-integral", case, "-o", output, "--restart", "--until",

@@ -25,7 +25,7 @@ class Installed(unittest.TestCase):
 
     def endoflow(self, *arguments):
         words = [self.root / "moved" / "bin" / "endoflow", *arguments]
-        result = subprocess.run([str(word) for word in words], cwd=self.root, capture_output=True, text=True, timeout=300,
+        result = subprocess.run([str(word) for word in words], cwd=self.root, capture_output=True, text=True, timeout=1200,
                                 env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
         self.assertEqual((result.returncode, result.stderr), (0, ""), arguments)
         return result.stdout

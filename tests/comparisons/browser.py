@@ -80,7 +80,7 @@ class Browser:
         os.close(self._answers)
         self._profile.cleanup()
 
-    def _call(self, method, parameters=None, timeout=120):
+    def _call(self, method, parameters=None, timeout=600):
         """Send one DevTools command and wait for its answer."""
         self._number += 1
         message = {"id": self._number, "method": method, "params": parameters or {}}
@@ -122,7 +122,7 @@ class Browser:
         ):
             self.problems.append("network request: " + parameters["request"]["url"])
 
-    def open(self, path, ready, timeout=120):
+    def open(self, path, ready, timeout=600):
         """Open a file (pathlib.Path) and wait until the JavaScript expression `ready` is true."""
         self._call("Page.navigate", {"url": path.resolve().as_uri()})
         end = time.monotonic() + timeout

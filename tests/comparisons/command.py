@@ -17,7 +17,7 @@ def compare(*arguments, **environment):
         [sys.executable, str(locations.COMPARE), *map(str, arguments)],
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=1200,
         env={**os.environ, **environment},
     )
 

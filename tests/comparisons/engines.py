@@ -32,5 +32,5 @@ def tiny_run(test, name, *settings):
     output = Path(scratch.name) / "run"
     command = [str(program), "run", engine, str(locations.ROOT / "cases" / "standard.toml"), "-o", str(output)]
     options = [part for text in (*TINY[name], *settings) for part in ("--set", text)]
-    subprocess.run(command + options, check=True, capture_output=True, timeout=170)
+    subprocess.run(command + options, check=True, capture_output=True, timeout=1200)
     return output

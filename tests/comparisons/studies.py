@@ -50,7 +50,7 @@ class StudyTest(CommandTest):
             self.arguments(command, *arguments),
             capture_output=True,
             text=True,
-            timeout=300,
+            timeout=1200,
             cwd=self.scratch,
             env=self.environment(),
         )

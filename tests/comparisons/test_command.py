@@ -63,7 +63,7 @@ class Command(CompareTest):
         while not (output / "metrics.json").exists() and process.poll() is None:
             time.sleep(0.01)
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=120)
+        _, errors = process.communicate(timeout=1200)
         self.assertEqual(process.returncode, 130)
         self.assertNotIn("Traceback", errors)
 

@@ -107,7 +107,7 @@ class Slurm(StudyTest):
             env={**self.environment(), "SLURM_ARRAY_TASK_ID": str(number), "PATH": path},
             capture_output=True,
             text=True,
-            timeout=300,
+            timeout=1200,
         )
 
     def test_script(self):

@@ -21,7 +21,7 @@ def movie(*arguments, **environment):
         [sys.executable, str(locations.ROOT / "comparisons" / "movie.py"), *map(str, arguments)],
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=1200,
         env={**os.environ, **environment},
     )
 

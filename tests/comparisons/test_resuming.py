@@ -47,7 +47,7 @@ class Resuming(SweepTest):
         while not ready.exists() and time.monotonic() < deadline:
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=120)
+        _, errors = process.communicate(timeout=1200)
         self.assertEqual(
             (process.returncode, errors), (130, "endoflow sweep: interrupted; the same command continues\n")
         )

@@ -117,7 +117,7 @@ class RevolvedMembrane(unittest.TestCase):
             [sys.executable, str(script), str(self.run_), *map(str, arguments)],
             capture_output=True,
             text=True,
-            timeout=60,
+            timeout=1200,
         )
 
     def test_surface(self):

@@ -87,7 +87,7 @@ class AnyEngine:
 
     def assert_io_error(self, process, *words):
         """Exit code 4 and one line of ours; a library may have written lines of its own before it."""
-        _, errors = process.communicate(timeout=300)
+        _, errors = process.communicate(timeout=1200)
         self.assertEqual(process.returncode, 4, errors)
         self.assertEqual(errors.count("endoflow: "), 1, errors)
         for word in words:
@@ -95,7 +95,7 @@ class AnyEngine:
 
     def assert_goes_on(self, *settings):
         process = self.start(*settings, restart=True)
-        _, errors = process.communicate(timeout=300)
+        _, errors = process.communicate(timeout=1200)
         self.assertEqual((process.returncode, errors), (0, ""))
 
     def assert_goes_on_from_its_history(self):
@@ -159,7 +159,7 @@ class BoundaryIntegral(AnyEngine, unittest.TestCase):
         process = self.start("time.end=0.01")
         self.wait_for_rows(process, 1)
         with h5py.File(self.directory / "shapes.h5", "r"):
-            _, errors = process.communicate(timeout=300)
+            _, errors = process.communicate(timeout=1200)
         self.assertEqual((process.returncode, errors), (0, ""))
         with h5py.File(self.directory / "shapes.h5", "r") as file:
             self.assertEqual(len(file["shapes"]), 21)
@@ -197,7 +197,7 @@ class PhaseField(AnyEngine, unittest.TestCase):
     def test_checkpoint_of_another_engine_or_scheme(self):
         self.copy_finished_run()
         process = self.start("phase_field.scheme=paper", restart=True)
-        _, errors = process.communicate(timeout=300)
+        _, errors = process.communicate(timeout=1200)
         self.assertEqual(process.returncode, 2, errors)
         self.assertIn("phase_field.scheme", errors)
         shutil.rmtree(self.directory)
@@ -216,7 +216,7 @@ class PhaseField(AnyEngine, unittest.TestCase):
         ranks = processes_of("endoflow-phase-field", self.directory)
         self.assertEqual(len(ranks), 2, process.poll() and process.communicate())
         os.kill(ranks[-1], signal.SIGKILL)
-        _, errors = process.communicate(timeout=300)
+        _, errors = process.communicate(timeout=1200)
         self.assertNotEqual(process.returncode, 0)
         self.assertIn("Killed", errors)
         self.assert_goes_on_from_its_history()

@@ -19,7 +19,7 @@ PROGRAM = None
 
 
 def endoflow(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=1200)
 
 
 class Statics(unittest.TestCase):
