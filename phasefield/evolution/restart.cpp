@@ -26,9 +26,11 @@ void TimeLoop::checkpoint() {
     Checkpoint checkpoint;
     checkpoint.time_us = time_;
     checkpoint.texts["mesh"] = slot;
-    checkpoint.scalars = {{"bending_energy", last_energy_},           {"dissipated_power", last_power_},
-                          {"shapes_written", shapes_written_},        {"checkpoints_written", checkpoints_written_},
-                          {"neck_radius", neck_radius_.value_or(-1)}, {"budding_time", budding_time_.value_or(-1)}};
+    checkpoint.scalars = {{"bending_energy", last_energy_},
+                          {"dissipated_power", last_power_},
+                          {"checkpoints_written", checkpoints_written_},
+                          {"neck_radius", neck_radius_.value_or(-1)},
+                          {"budding_time", budding_time_.value_or(-1)}};
     checkpoint.arrays["field_times"] = field_times_;
     const auto directory = output_.directory() / "checkpoint" / slot;
     try {
@@ -47,9 +49,9 @@ void TimeLoop::restart(const Checkpoint& checkpoint) {
         return value < 0 ? std::nullopt : std::optional(value);
     };
     time_ = checkpoint.time_us;
+    plan_output(time_);
     last_energy_ = checkpoint.scalar("bending_energy");
     last_power_ = checkpoint.scalar("dissipated_power");
-    shapes_written_ = checkpoint.scalar("shapes_written");
     checkpoints_written_ = checkpoint.scalar("checkpoints_written");
     neck_radius_ = optional("neck_radius");
     budding_time_ = optional("budding_time");

@@ -17,6 +17,13 @@ namespace endoflow::phasefield {
 namespace {
 
 constexpr int event_iterations = 4;  // of regula falsi within a step
+constexpr double same_time = 1e-12;  // relative difference of times that is round-off
+
+/// The first multiple of an interval after a time; never when the interval is 0.
+double next_multiple(double interval, double time) {
+    if (interval <= 0) return std::numeric_limits<double>::infinity();
+    return (std::floor(time / interval * (1 + same_time)) + 1) * interval;
+}
 
 }  // namespace
 
@@ -38,8 +45,9 @@ void TimeLoop::start_fresh() {
     contour_ = outcome.contour;
     last_energy_ = outcome.diagnostics.bending_energy;
     record(0, outcome.diagnostics);
-    write_shape(0, contour_.curve);
+    output_.write_shape(0, contour_.curve);
     if (parameters_.output.field_interval > 0) write_fields(0);
+    plan_output(0);
 }
 
 ExitReason TimeLoop::run() {
@@ -56,7 +64,7 @@ ExitReason TimeLoop::run() {
 }
 
 std::optional<ExitReason> TimeLoop::reason_to_stop() {
-    if (time_ >= parameters_.time.end * (1 - 1e-12)) return ExitReason::done;
+    if (time_ >= parameters_.time.end * (1 - same_time)) return ExitReason::done;
     if (anywhere(interruption_signal() != 0)) return ExitReason::interrupted;
     if (budding_time_ && parameters_.output.stop_at_budding) return ExitReason::budded;
     if (contour_.components > 1) return ExitReason::neck_closed;
@@ -144,31 +152,25 @@ void TimeLoop::check_clearance() const {
 
 double TimeLoop::next_deadline() const {
     if (scheme_->interpolates()) return parameters_.time.end;
-    return std::min({parameters_.time.end, next_shape(), next_fields()});
+    return std::min({parameters_.time.end, next_shape_, next_fields_});
 }
 
-double TimeLoop::next_shape() const {
-    return shapes_written_ * parameters_.output.shape_interval;
-}
-
-double TimeLoop::next_fields() const {
-    const double interval = parameters_.output.field_interval;
-    return interval > 0 ? static_cast<double>(field_times_.size()) * interval : std::numeric_limits<double>::infinity();
-}
-
-void TimeLoop::write_shape(double time, const MembraneCurve& curve) {
-    output_.write_shape(time, curve);
-    shapes_written_ += 1;
+void TimeLoop::plan_output(double time) {
+    next_shape_ = next_multiple(parameters_.output.shape_interval, time);
+    next_fields_ = next_multiple(parameters_.output.field_interval, time);
 }
 
 void TimeLoop::write_due_output() {
-    const auto now = [this](double time) { return std::abs(time - time_) <= 1e-12 * time_; };
-    while (next_shape() < time_ && !now(next_shape()))
-        write_shape(next_shape(), scheme_->contour_at(next_shape()).curve);
-    while (next_fields() < time_ && !now(next_fields())) write_fields(next_fields());
-    const bool end = time_ >= parameters_.time.end * (1 - 1e-12);
-    if (end || now(next_shape())) write_shape(time_, contour_.curve);
-    if ((end && parameters_.output.field_interval > 0) || now(next_fields())) write_fields(time_);
+    const auto now = [this](double time) { return std::abs(time - time_) <= same_time * time_; };
+    const auto due = [&](double time) { return time < time_ && !now(time); };
+    for (; due(next_shape_); next_shape_ = next_multiple(parameters_.output.shape_interval, next_shape_))
+        output_.write_shape(next_shape_, scheme_->contour_at(next_shape_).curve);
+    for (; due(next_fields_); next_fields_ = next_multiple(parameters_.output.field_interval, next_fields_))
+        write_fields(next_fields_);
+    const bool end = time_ >= parameters_.time.end * (1 - same_time);
+    if (end || now(next_shape_)) output_.write_shape(time_, contour_.curve);
+    if ((end && parameters_.output.field_interval > 0) || now(next_fields_)) write_fields(time_);
+    plan_output(time_);
 }
 
 void TimeLoop::write_fields(double time) {

@@ -28,12 +28,11 @@ class TimeLoop {
     double time_of_budding(double before, double tau, Observables& at_event) const;
     void check_clearance() const;
     void write_due_output();
-    void write_shape(double time, const MembraneCurve& curve);
+    /// The next shapes and fields are the first multiples of their intervals after `time`.
+    void plan_output(double time);
     void write_fields(double time);
     void checkpoint();
     [[nodiscard]] double next_deadline() const;
-    [[nodiscard]] double next_shape() const;
-    [[nodiscard]] double next_fields() const;
     [[nodiscard]] bool anywhere(bool here) const;
     [[nodiscard]] std::optional<ExitReason> reason_to_stop();
 
@@ -45,7 +44,8 @@ class TimeLoop {
     Contour contour_;
     Observables observables_{};
     double time_ = 0, last_energy_ = 0, last_power_ = 0;
-    double shapes_written_ = 0, checkpoints_written_ = 0;
+    double next_shape_ = 0, next_fields_ = 0;  // when they are due [µs]
+    double checkpoints_written_ = 0;
     std::vector<double> field_times_;
     std::optional<double> neck_radius_, budding_time_;
 };
