@@ -15,6 +15,7 @@ import unittest
 from pathlib import Path
 
 import h5py
+import numpy as np
 
 PROGRAM = None
 
@@ -167,6 +168,13 @@ class BoundaryIntegral(AnyEngine, unittest.TestCase):
 
 class PhaseField(AnyEngine, unittest.TestCase):
     engine = "phase-field"
+
+    def test_shapes_of_a_continued_run_come_at_multiples_after_the_restart(self):
+        self.copy_finished_run()
+        self.assert_goes_on("time.end=4e-5", "output.shape_interval=6e-6")
+        with h5py.File(self.directory / "shapes.h5") as file:
+            times = [float(shape.attrs["time"]) for shape in file["shapes"].values()]
+        np.testing.assert_allclose(times, [0, 2e-5, 2.4e-5, 3e-5, 3.6e-5, 4e-5], rtol=1e-12)
 
     def test_disk_full_while_vectors_are_written(self):
         """The saved vectors are by far the largest file, and are written by MPI, which says nothing."""
