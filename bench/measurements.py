@@ -3,6 +3,7 @@
 A dict with the key `skipped` says in a sentence why there is no figure.
 """
 
+import csv
 import json
 import os
 import shutil
@@ -14,6 +15,9 @@ from statistics import median
 
 SOURCE = Path(__file__).resolve().parent.parent
 STANDARD_CASE = SOURCE / "cases" / "standard.toml"
+
+#: No field files: they are no part of what is compared.
+NO_FIELDS = "output.field_interval=0"
 
 
 class RunFailed(Exception):
@@ -118,31 +122,40 @@ def patch_sweep(bench):
 
 
 def phase_field_schemes(bench):
-    """CPU time per simulated µs of both phase-field schemes on one process, early in the standard case, and their ratio."""
+    """The standard case by both phase-field schemes on one process: CPU time of `production` up to several times (one
+    run), and of a step of `paper`, of which a run takes at least one per `phase_field.max_step`, 2 ns."""
     if not (bench.build / "endoflow-phase-field").exists():
         return {"skipped": "endoflow was built without the phase-field engine (ENDOFLOW_PHASEFIELD=OFF)"}
-    if not offers(bench, "phase_field.scheme=production"):
-        return {"skipped": "this version has no phase_field.scheme = production"}
-    end = 0.001 if bench.quick else 0.0077
-    schemes = ("paper", "production")
-    records = {scheme: [] for scheme in schemes}
-    for _ in range(bench.repeats):
-        for scheme in schemes:  # one after the other, so that both meet the same machine
-            settings = (f"phase_field.scheme={scheme}", f"time.end={end}", "output.field_interval=1")
-            records[scheme].append(bench.run("phase-field", f"phase_field_{scheme}", *settings))
-    per_time = {scheme: [record["cpu_s"] / record["time_us"] for record in records[scheme]] for scheme in schemes}
+    times, paper_end = ((0.001,), 0.0005) if bench.quick else ((1, 3, 20), 0.005)
+    paper = [
+        bench.run("phase-field", "phase_field_paper", "phase_field.scheme=paper", f"time.end={paper_end}", NO_FIELDS)
+        for _ in range(bench.repeats)
+    ]
+    per_step = median(record["cpu_s"] / record["steps"]["accepted"] for record in paper)
+    longest_step = paper[-1]["parameters"]["phase_field"]["max_step"]
+    production = bench.run("phase-field", "phase_field_production", f"time.end={times[-1]}", NO_FIELDS)
+    history = bench.output / "runs" / "phase_field_production" / "history.csv"
     return {
-        "until_us": end,
-        "cpu_s_per_us": {scheme: median(per_time[scheme]) for scheme in schemes},
-        "ratio_paper_to_production": median(p / q for p, q in zip(per_time["paper"], per_time["production"])),
-        "schemes": {scheme: summary(records[scheme]) for scheme in schemes},
+        "paper_cpu_s_per_step": per_step,
+        "paper_longest_step_us": longest_step,
+        "exit_reason": production["exit_reason"],
+        "to": [
+            {"time_us": time, "cpu_s": cpu, "steps": steps, "ratio": per_step * time / longest_step / cpu}
+            for time, cpu, steps in costs(history, production["cpu_s"] / production["wall_s"], times)
+        ],
     }
 
 
-def offers(bench, setting):
-    """Whether this version of endoflow accepts a setting, "section.key=value"."""
-    command = [str(bench.build / "endoflow"), "check", str(STANDARD_CASE), "--set", setting]
-    return subprocess.run(command, capture_output=True, check=False).returncode == 0
+def costs(history, cpu_per_wall, times):
+    """(time, CPU s, steps) up to each of `times`, or to the run's end where that is earlier."""
+    with open(history, encoding="utf-8", newline="") as file:
+        rows = [(float(row["time_us"]), float(row["wall_s"])) for row in csv.DictReader(file)]
+    found = []
+    for time in times:
+        steps = min(sum(at < time * (1 - 1e-9) for at, _ in rows), len(rows) - 1)
+        at, wall = rows[steps]
+        found.append((min(at, time), cpu_per_wall * wall, steps))
+    return found
 
 
 #: In the order in which they are made.

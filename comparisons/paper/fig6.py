@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
 from sweep_plots import LOOKS  # noqa: E402
 
 from . import patch_sweep  # noqa: E402
-from .item import Printed, Result, not_run_remarks, quick_remark, text  # noqa: E402
+from .item import NECK_CLOSED, Printed, Result, not_run_remarks, quick_remark, text  # noqa: E402
 from .patch_sweep import EARLY, STATIONARY, of_engine  # noqa: E402
 
 TITLE = "Fig. 6: vesicle diameter and neck radius by patch radius"
@@ -54,7 +54,10 @@ def draw(rows):
 
 
 def neck_minimum(rows, engine, column):
-    """The smallest neck in words."""
+    """The smallest neck in words; at the end several may have closed."""
+    closed = [row["patch_radius_nm"] for row in rows if row["engine"] == engine and row["state"] == NECK_CLOSED]
+    if closed and column == "neck_radius_nm":
+        return ", ".join(f"{radius:g}" for radius in closed) + " (closed)"
     found = patch_sweep.best(*of_engine(rows, engine, column))
     return "–" if found is None else f"{found[0]:.3g} (neck {found[1]:.3g} nm)"
 

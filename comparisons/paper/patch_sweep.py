@@ -112,7 +112,8 @@ def engines_of(rows):
 
 
 def best(x, y):
-    """(radius, value) of the smallest of values y at radii x, refined by the parabola through its neighbours.
+    """(radius, value) of the smallest of positive values y at radii x, refined by the parabola of log y through its
+    neighbours (that of y itself can end below zero).
 
     None without values; the grid's own point at its ends.
     """
@@ -121,5 +122,5 @@ def best(x, y):
     i = int(np.argmin(y))
     if i in (0, len(x) - 1):
         return float(x[i]), float(y[i])
-    a, b, c = np.polyfit(x[i - 1 : i + 2] - x[i], y[i - 1 : i + 2], 2)
-    return float(x[i] - b / (2 * a)), float(c - b * b / (4 * a))
+    a, b, c = np.polyfit(x[i - 1 : i + 2] - x[i], np.log(y[i - 1 : i + 2]), 2)
+    return float(x[i] - b / (2 * a)), float(np.exp(c - b * b / (4 * a)))

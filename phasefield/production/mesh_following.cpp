@@ -43,7 +43,7 @@ void ProductionScheme::follow(const MembraneCurve& curve) {
     bool adapted = false;
     for (int pass = 0; pass < most_passes && adapt_once(curve); ++pass) adapted = true;
     if (!adapted) return;
-    system_.reinit(space_, pattern_.couplings);
+    solver_.reinit(space_);
     // Cells are coarsened outside of the layer alone; what that changes in ∫δ c and ∫δ s is restored to round-off.
     const auto present = [this] {
         return measure_solution(space_, model_, numbers_, solutions_.front(), solutions_.front(), solutions_.front())
@@ -67,7 +67,12 @@ void ProductionScheme::save(const std::filesystem::path& directory, Checkpoint& 
     checkpoint.arrays["solution_times"] = times_;
     make_empty_directory(directory, mesh_->get_communicator());
     Transfer transfer(space_.dofs);
-    transfer.prepare_for_serialization(addresses(solutions_));
+    auto vectors = addresses(solutions_);
+    for (const Vector* vector : solver_.save(checkpoint)) {
+        vector->update_ghost_values();
+        vectors.push_back(vector);
+    }
+    transfer.prepare_for_serialization(vectors);
     mesh_->save((directory / "mesh").string());
     MPI_Barrier(mesh_->get_communicator());
 }
@@ -84,8 +89,11 @@ StepOutcome ProductionScheme::load(const std::filesystem::path& directory, const
     solutions_.assign(times_.size(), space_.vector());
     std::vector<Vector*> targets;
     for (auto& vector : solutions_) targets.push_back(&vector);
+    std::vector<Vector> of_factors(StepSolver::saved_vectors(checkpoint), space_.vector());
+    for (auto& vector : of_factors) targets.push_back(&vector);
     transfer.deserialize(targets);
-    for (const auto& solution : solutions_) solution.update_ghost_values();
+    for (const Vector* vector : targets) vector->update_ghost_values();
+    solver_.load(space_, numbers_, checkpoint, std::move(of_factors));
     return present();
 }
 

@@ -58,6 +58,7 @@ inline constexpr double layer_pressure_alignment = 30;  // [nm³/(pN µs)] keeps
 inline constexpr double pressure_leak = 0.01;           // [nm/(pN µs)] ∇·u per q: decides between p and δ q
 inline constexpr double molecule_leak = 1e-6;   // [1/nm] of the normal diffusivity: defines c far from the layer
 inline constexpr double gradient_floor = 1e-3;  // of |∇ψ| in the normal
+inline constexpr double uneven_fade = 20;  // [1/ε] of ∂ₙ∇ψ, beyond which the force that balances G's diffusion fades
 
 /// φ, δ, δ' and the rest that only depend on ψ.
 template <class Number>
@@ -209,7 +210,8 @@ void extend_multiplier(const AtPoint<Number>& y, const PointGeometry<Number>& p,
 }
 
 /// (32), (33): momentum with the forces δ_m (G ∇ψ + e ∇c) − ∇·(δ_m λ P), and volume. The diffusion of G along the
-/// normal would leave a net force on the membrane where ∇ψ changes along it, D δ ∂ₙG ∂ₙ∇ψ, which is added. The pressure
+/// normal would leave a net force on the membrane where ∇ψ changes along it, D δ ∂ₙG ∂ₙ∇ψ, which is added. Its work is
+/// nobody's loss, though: where layers meet and ψ is no distance it would pump, so it fades there. The pressure
 /// in the layer is p + δ q, q constant along the normal the multiplier of ∫δ ∇·u across the layer: p alone, continuous
 /// and quadratic, cannot follow δ on cells as wide as the layer, and the rest would drive a spurious flow.
 template <class Number>
@@ -218,7 +220,9 @@ void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Num
     const auto &ur = x[velocity_r], &uz = x[velocity_z], &psi = x[distance], &c = x[molecule_density];
     const auto& G = x[normal_force];
     const Number g = p.density * G.value, molecular = step.weight.cut * p.density * e;
-    const Number uneven = force_diffusivity(p, step.numerics.epsilon) * (past.normal_r * G.r + past.normal_z * G.z);
+    const double kink = uneven_fade * step.numerics.epsilon * std::hypot(past.change_r, past.change_z);
+    const Number uneven = (1 / (1 + kink * kink)) * force_diffusivity(p, step.numerics.epsilon) *
+                          (past.normal_r * G.r + past.normal_z * G.z);
     const Number nu = layer_viscosity(p.layer.phi, step.fluid, step.weight, step.numerics.viscosity_mean);
     const Number hoop = ur.value / r, divergence = ur.r + hoop + uz.z;
     const Number isotropic = x[pressure].value + p.layer.delta * x[pressure_layer].value;

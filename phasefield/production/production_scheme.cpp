@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "phasefield/evolution/boundary_flux.h"
 #include "phasefield/io/field_output.h"
@@ -24,9 +23,6 @@ constexpr double largest_growth = 1.5;        // per step
 constexpr double almost_all = 0.7;            // of the time left: one step, or ever shorter ones would approach the end
 constexpr double tolerated_excess = 2;        // of the error over its tolerance, beyond which a step is repeated
 constexpr double newton_part = 0.002;         // of the step's tolerance to which Newton's method converges
-constexpr int most_iterations = 20;           // of Newton's method
-constexpr double slow_contraction = 0.5;      // of the changes by old factors: these are dropped and new factors taken
-constexpr double most_divergence = 10;        // of a change beyond the first one, where Newton's method gives up
 constexpr double smallest_step = 1e-5;        // of the first one
 constexpr double relaxation_per_speed = 200;  // M is at most this many times the speed of the membrane
 constexpr double largest_motion = 1.5;        // of the membrane in one step, in units of ε
@@ -43,10 +39,9 @@ ProductionScheme::ProductionScheme(const Parameters& parameters, MPI_Comm commun
       model_(parameters.membrane),
       mesh_(coarse_mesh(parameters, communicator)),
       space_(*mesh_, field_degrees(parameters.phase_field)),
-      pattern_(parameters, model_),
-      system_(communicator, "coupled"),
       numbers_{0, parameters.phase_field, parameters.fluid, parameters.molecules,
                membrane_weight(parameters.fluid, parameters.phase_field.viscosity_mean)},
+      solver_(parameters, model_, communicator, newton_part * position_tolerance(parameters)),
       nominal_(parameters.time.initial_step) {}
 
 namespace {
@@ -84,7 +79,7 @@ void ProductionScheme::distribute() {
 
 void ProductionScheme::renew() {
     distribute();
-    system_.reinit(space_, pattern_.couplings);
+    solver_.reinit(space_);
 }
 
 Contour ProductionScheme::contour(const Vector& solution) const {
@@ -151,42 +146,6 @@ Vector ProductionScheme::polynomial(double time, std::size_t count) const {
     return out;
 }
 
-void ProductionScheme::solve(Vector& solution, const StepHistory& history) {
-    const double wanted = newton_part * position_tolerance(parameters_);
-    double last = 1e300, first = wanted;
-    bool refactor = true;
-    std::string changes;
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
-        Vector increment = space_.vector();
-        if (refactor) {
-            assemble(space_, pattern_, model_, numbers_, history, solution, system_);
-            system_.forget_factors();
-            system_.solve(space_, increment);
-        } else {
-            assemble_residual(space_, pattern_, model_, numbers_, history, solution, system_);
-            system_.apply_factors(space_, increment);
-        }
-        const double change = layer_increment(space_, parameters_.phase_field.epsilon, increment, solution);
-        const double contraction = change / last;
-        char text[24];
-        std::snprintf(text, sizeof text, refactor ? " %.1e" : " (%.1e)", change);
-        changes += text;
-        if (!refactor && !(contraction < slow_contraction)) {
-            refactor = true;
-            continue;
-        }
-        solution += increment;
-        solution.update_ghost_values();
-        if (change <= wanted || (iteration > 0 && contraction < 0.5 && change * contraction <= 0.5 * wanted)) return;
-        if (iteration == 0) first = std::max(first, change);
-        if (!std::isfinite(change) || change > most_divergence * first) break;
-        refactor = false;
-        last = change;
-    }
-    throw SolverError("newton-divergence", "Newton's method changed ψ by" + changes + " nm",
-                      "use a smaller time.tolerance or phase_field.cell_size");
-}
-
 StepOutcome ProductionScheme::attempt(double time, double tau) {
     const double end = time + tau;
     const auto bdf = bdf_coefficients(end, times_, order());
@@ -203,7 +162,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     trial_ = guess;
     trial_.update_ghost_values();
     const StepHistory history{&solutions_, bdf.past, &guess};
-    solve(trial_, history);
+    solver_.solve(space_, numbers_, history, trial_);
 
     auto measures = measure_solution(space_, model_, numbers_, solutions_.front(), predicted, trial_);
     measures.diagnostics.net_vertical_force = net_vertical_force(space_, model_, numbers_, history, trial_);

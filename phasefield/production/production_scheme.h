@@ -2,13 +2,10 @@
 
 #include "phasefield/discretization/mesh.h"
 #include "phasefield/evolution/scheme.h"
-#include "phasefield/production/assembly.h"
 #include "phasefield/production/diagnostics.h"
+#include "phasefield/production/step_solver.h"
 
 namespace endoflow::phasefield::production {
-
-/// The mesh follows when the membrane has moved this far, in units of ε.
-inline constexpr double follow_after_motion = 0.5;
 
 /// All fields at one time level are solved for together by Newton's method; BDF3 in time with the error of ψ
 /// controlled.
@@ -31,6 +28,8 @@ class ProductionScheme : public Scheme {
                       double time) const override;
     [[nodiscard]] double unknowns() const override { return static_cast<double>(space_.dofs.n_dofs()); }
     [[nodiscard]] double cells() const override { return static_cast<double>(mesh_->n_global_active_cells()); }
+    /// So far.
+    [[nodiscard]] unsigned int factorisations() const { return solver_.factorisations(); }
 
   private:
     void distribute();
@@ -38,7 +37,6 @@ class ProductionScheme : public Scheme {
     bool adapt_once(const MembraneCurve& curve);
     /// The polynomial through the newest `count` solutions.
     [[nodiscard]] Vector polynomial(double time, std::size_t count) const;
-    void solve(Vector& solution, const StepHistory& history);
     [[nodiscard]] std::size_t order() const;
     [[nodiscard]] Contour contour(const Vector& solution) const;
     /// Measures the newest solution: renews integrals_ and returns the rest.
@@ -48,9 +46,8 @@ class ProductionScheme : public Scheme {
     BendingModel model_;
     std::unique_ptr<Mesh> mesh_;
     Space space_;
-    EquationPattern pattern_;
-    LinearSystem system_;
     StepNumbers numbers_;
+    StepSolver solver_;
     std::vector<Vector> solutions_;  // newest first
     std::vector<double> times_;      // of them [µs]
     LayerIntegrals integrals_{};

@@ -30,6 +30,7 @@ class LinearSystem {
     void start();
     /// The next solve factorises anew (call it when the matrix has changed much, e.g. with the time step).
     void forget_factors() { factors_valid_ = false; }
+    [[nodiscard]] bool has_factors() const { return factors_valid_; }
     /// Solves and satisfies the constraints; ghost values of `solution` are updated.
     /// Throws SolverError("linear-solver", …) when the factorisation fails or the result is not finite.
     void solve(const Space& space, Vector& solution);

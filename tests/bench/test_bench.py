@@ -44,6 +44,15 @@ class Summary(unittest.TestCase):
         self.assertEqual(found["budding_time_us"], 0.826)
 
 
+class Costs(unittest.TestCase):
+    def test_up_to_a_time_or_the_end(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            history = Path(scratch) / "history.csv"
+            history.write_text("time_us,wall_s\n0,1\n0.4,3\n1,5\n2.5,8\n", encoding="utf-8")
+            found = measurements.costs(history, 2.0, (1, 2, 20))
+        self.assertEqual(found, [(1.0, 10.0, 2), (2, 16.0, 3), (2.5, 16.0, 3)])
+
+
 class CommandLine(unittest.TestCase):
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()

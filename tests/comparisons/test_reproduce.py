@@ -12,7 +12,7 @@ import numpy as np
 import endoflow
 import synthetic
 from endoflow.shapes import Shape
-from paper import patch_sweep
+from paper import fig6, patch_sweep
 from paper.fig4 import pinch_off_time
 from studies import StudyTest
 
@@ -171,9 +171,16 @@ class Morphology(unittest.TestCase):
 
     def test_parabola_through_the_lowest_points(self):
         x = np.array([20.0, 30.0, 40.0, 50.0])
-        self.assertEqual(np.round(patch_sweep.best(x, (x - 37) ** 2 + 2), 9).tolist(), [37.0, 2.0])
+        self.assertEqual(np.round(patch_sweep.best(x, np.exp(((x - 37) / 9) ** 2) * 2), 9).tolist(), [37.0, 2.0])
         self.assertEqual(patch_sweep.best(x, x), (20.0, 20.0))
         self.assertIsNone(patch_sweep.best(x[:0], x[:0]))
+
+    def test_necks_that_closed_are_the_smallest(self):
+        columns = ("patch_radius_nm", "engine", "state", "neck_radius_nm", "neck_radius_at_1_us_nm")
+        values = ((24, "done", 10.0, 11.0), (28, "neck-closed", 0.5, 6.0), (32, "neck-closed", 0.5, 4.0))
+        rows = [dict(zip(columns, (radius, "sharp", *rest))) for radius, *rest in values]
+        self.assertEqual(fig6.neck_minimum(rows, "sharp", "neck_radius_nm"), "28, 32 (closed)")
+        self.assertEqual(fig6.neck_minimum(rows, "sharp", "neck_radius_at_1_us_nm"), "32 (neck 4 nm)")
 
 
 if __name__ == "__main__":

@@ -70,3 +70,22 @@ TEST_CASE("cells are finer at the patch's edge alone", "[refinement]") {
     CHECK(wanted_size(bands, p, 0, 120) == cell_size);  // c is not quite 1 in the patch
     CHECK(wanted_size(bands, p, 12, 60) == cell_size);
 }
+
+TEST_CASE("cells are fine where the membrane will be when the mesh follows", "[refinement]") {
+    const Parameters p = with_cells();
+    auto curve = bud_on_neck(12);
+    curve.u_r.assign(curve.size(), 0);
+    curve.u_z.assign(curve.size(), 0);
+    const auto far_from_tip = [&](const std::vector<RefinedBand>& bands) {  // the farthest fine point above the bud
+        double height = 120;
+        while (wanted_size(bands, p, 0, height) <= cell_size) height += 0.05;
+        return height;
+    };
+    const double at_rest = far_from_tip(refined_bands(curve, p));
+    for (std::size_t i = 0; i < curve.size(); ++i) curve.u_z[i] = curve.z[i] > 110 ? 200 : 0;
+    const auto bands = refined_bands(curve, p);
+    CHECK(far_from_tip(bands) == Approx(at_rest + follow_after_motion * p.phase_field.epsilon).margin(0.11));
+    // Not in front of what rests.
+    const double beside = 20 + p.phase_field.band_width * p.phase_field.epsilon;
+    CHECK(wanted_size(bands, p, beside + 0.1, 100) > cell_size);
+}

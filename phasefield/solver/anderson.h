@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "phasefield/discretization/space.h"
+
+namespace endoflow::phasefield {
+
+/// Anderson's acceleration (type II; Walker & Ni, SIAM J. Numer. Anal. 49 (2011) 1715) of the fixed-point iteration
+/// x ← x + d(x): what former changes of d have shown to be linear in x is taken out at once. With d a Newton increment
+/// by the factors of an earlier step this finds the few directions in which those factors no longer serve.
+class AndersonMixing {
+  public:
+    /// The norm of an increment is that of its fields' l² norms, each relative to that of `first`, the first increment.
+    AndersonMixing(const Space& space, const Vector& first);
+
+    /// The norm above: √(number of fields) for `first` itself. Collective.
+    [[nodiscard]] double norm(const Vector& increment) const;
+
+    /// x becomes the next iterate; `increment` is d(x). Ghost values of x are updated. Collective.
+    void advance(Vector& x, const Vector& increment);
+
+  private:
+    [[nodiscard]] double product(const Vector& a, const Vector& b) const;
+    void remember(const Vector& increment);
+
+    Vector weight_;                            // of the inner product
+    std::vector<Vector> changes_, movements_;  // orthonormal changes of d, and the movements of x that caused them
+    Vector last_increment_, last_movement_;
+};
+
+}  // namespace endoflow::phasefield

@@ -1,0 +1,104 @@
+// Newton's method with the factors of earlier steps.
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "phasefield/discretization/mesh.h"
+#include "phasefield/production/production_scheme.h"
+#include "phasefield/solver/anderson.h"
+#include "shared/geometry/observables.h"
+#include "small_case.h"
+
+using namespace endoflow;
+using namespace endoflow::phasefield;
+using namespace endoflow::phasefield::production;
+
+namespace {
+
+void keep_steps(ProductionScheme& scheme, double& time, int count, double tau) {
+    for (int k = 0; k < count; ++k) {
+        const auto outcome = scheme.attempt(time, tau);
+        REQUIRE(outcome.rejection.empty());
+        scheme.keep(time, tau, outcome);
+        time += tau;
+    }
+}
+
+struct Seen {
+    double height, energy, dissipation;
+};
+
+Seen seen(const StepOutcome& outcome) {
+    return {outcome.contour.curve.z.front(), outcome.diagnostics.bending_energy,
+            outcome.diagnostics.viscous_dissipation};
+}
+
+}  // namespace
+
+TEST_CASE("Anderson's acceleration finds the directions in which the iteration fails", "[newton]") {
+    const auto mesh = coarse_mesh(small_case(), MPI_COMM_SELF);
+    Space space(*mesh, {1, 2});
+    space.distribute();
+    space.constraints.close();
+    // d(x) = a (b − x) for each unknown: the plain iteration multiplies errors by 1 − a.
+    const auto rate = [](unsigned int i) { return i % 97 == 3 ? 3.0 : i % 89 == 5 ? -1.0 : i % 83 == 7 ? 0.1 : 1.0; };
+    const auto target = [](unsigned int i) { return std::sin(1.0 + i); };
+    Vector x = space.vector(), increment = space.vector();
+    const auto distance = [&] {
+        double largest = 0;
+        for (unsigned int i = 0; i < space.dofs.n_dofs(); ++i) {
+            increment(i) = rate(i) * (target(i) - x(i));
+            largest = std::max(largest, std::abs(target(i) - x(i)));
+        }
+        return largest;
+    };
+    distance();
+    AndersonMixing mixing(space, increment);
+    // Four different rates: like GMRES, the method ends after as many changes, and one iteration to see the first.
+    for (int k = 0; k < 5; ++k) {
+        CHECK(distance() > 1e-6);
+        mixing.advance(x, increment);
+    }
+    CHECK(distance() < 1e-10);
+}
+
+TEST_CASE("a step with the factors of another one ends where its own factors lead", "[newton]") {
+    constexpr double tau = 2e-5;
+    std::vector<Seen> ends;
+    double at_start = 0;
+    for (const bool old_factors : {false, true}) {
+        ProductionScheme scheme(small_case(), MPI_COMM_SELF);
+        at_start = scheme.start().diagnostics.bending_energy;
+        if (old_factors) scheme.attempt(0, 1.1 * tau);
+        const unsigned int before = scheme.factorisations();
+        ends.push_back(seen(scheme.attempt(0, tau)));
+        CHECK(scheme.factorisations() == before + (old_factors ? 0 : 1));
+    }
+    // Newton's method ends with changes below 4e-7 nm; the bud rises by 0.01 nm in this step.
+    CHECK(ends[1].height == Approx(ends[0].height).margin(1e-6));
+    // At the scale of the cells they change curvatures of 0.07/nm by 1e-7 to 1e-6, so the energy by some 1e-6 of itself.
+    CHECK(at_start - ends[1].energy == Approx(at_start - ends[0].energy).epsilon(1e-4));
+    CHECK(ends[1].dissipation == Approx(ends[0].dissipation).epsilon(1e-4));
+}
+
+TEST_CASE("a run that is continued goes on with the same factors", "[newton]") {
+    const auto directory =
+        std::filesystem::temp_directory_path() / ("endoflow_step_solver_test_" + std::to_string(getpid()));
+    ProductionScheme scheme(small_case(), MPI_COMM_SELF), continued(small_case(), MPI_COMM_SELF);
+    scheme.start();
+    double time = 0;
+    keep_steps(scheme, time, 3, 2e-5);
+    Checkpoint checkpoint;
+    scheme.save(directory, checkpoint);
+    continued.load(directory, checkpoint);
+    const unsigned int before = scheme.factorisations();
+    const Seen one = seen(scheme.attempt(time, 3e-5)), other = seen(continued.attempt(time, 3e-5));
+    CHECK(scheme.factorisations() == before);  // else the factors would not matter
+    // The same operations on the same numbers; with new factors the difference is Newton's tolerance.
+    CHECK(other.height == Approx(one.height).epsilon(1e-14));
+    CHECK(other.energy == Approx(one.energy).epsilon(1e-13));
+    CHECK(other.dissipation == Approx(one.dissipation).epsilon(1e-12));
+    std::filesystem::remove_all(directory);
+}
