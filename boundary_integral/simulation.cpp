@@ -21,6 +21,7 @@
 #include "boundary_integral/support/parallel.h"
 #include "shared/geometry/observables.h"
 #include "shared/output/field_index.h"
+#include "shared/output/output_times.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
 
@@ -33,9 +34,9 @@ constexpr double smallest_step = 1e-14;  // us
 
 // What the run remembers beside the integrator's history and the markers.
 struct RunMemory {
-    double last_row = 0.0;        // time of the last row of the history, us
-    double shapes_written = 0.0;  // number of output times done
-    double budded = 0.0;          // 1 once the budding event is recorded
+    double last_row = 0.0;     // time of the last row of the history, us
+    double last_shape = -1.0;  // time of the last shape; negative before the first one
+    double budded = 0.0;       // 1 once the budding event is recorded
 };
 
 std::vector<double> as_array(const Eigen::MatrixXd& matrix) {
@@ -55,7 +56,7 @@ class Run {
           fields_(field_index()) {}
 
     ExitReason execute() {
-        if (memory_.shapes_written == 0.0) write_shape(0.0, integrator_.state());
+        if (memory_.last_shape < 0.0) write_shape(0.0, integrator_.state());
         if (!output_.restart_point()) write_fields();
         while (integrator_.time() < parameters_.time.end) {
             resume_ = make_checkpoint();
@@ -94,12 +95,9 @@ class Run {
         const StepHistory& history = integrator_.history();
         Checkpoint checkpoint;
         checkpoint.time_us = history.time;
-        checkpoint.scalars = {{"next_step", history.step},
-                              {"order", history.order},
-                              {"equal_steps", history.equal_steps},
-                              {"last_row", memory_.last_row},
-                              {"shapes_written", memory_.shapes_written},
-                              {"budded", memory_.budded}};
+        checkpoint.scalars = {{"next_step", history.step},          {"order", history.order},
+                              {"equal_steps", history.equal_steps}, {"last_row", memory_.last_row},
+                              {"last_shape", memory_.last_shape},   {"budded", memory_.budded}};
         checkpoint.arrays = {{"differences", as_array(history.differences)},
                              {"marker_xi", strain_.markers().xi},
                              {"marker_log_growth", strain_.markers().log_growth},
@@ -127,7 +125,7 @@ class Run {
         history.order = static_cast<int>(checkpoint->scalar("order"));
         history.equal_steps = static_cast<int>(checkpoint->scalar("equal_steps"));
         history.differences = Eigen::Map<const Eigen::MatrixXd>(differences.data(), dynamics_.size(), columns);
-        memory_ = {checkpoint->scalar("last_row"), checkpoint->scalar("shapes_written"), checkpoint->scalar("budded")};
+        memory_ = {checkpoint->scalar("last_row"), checkpoint->scalar("last_shape"), checkpoint->scalar("budded")};
         strain_.restore({checkpoint->array("marker_xi"), checkpoint->array("marker_log_growth")});
         strain_rates_ = {checkpoint->array("marker_drift_rate"), checkpoint->array("marker_growth_rate")};
         return history;
@@ -237,14 +235,17 @@ class Run {
         }
     }
 
-    double output_time(double count) const { return count * parameters_.output.shape_interval; }
+    // Multiples after a restart's beginning: with another interval than before it, those before it are past.
+    double next_shape_time() const {
+        return next_multiple(parameters_.output.shape_interval, std::max(start_time(), memory_.last_shape));
+    }
 
     void write_shapes() {
-        while (output_time(memory_.shapes_written) <= integrator_.time()) {
-            const double time = output_time(memory_.shapes_written);
+        for (double time = next_shape_time(); reached(time); time = next_shape_time())
             write_shape(time, state_at(time));
-        }
     }
+
+    bool reached(double time) const { return time <= integrator_.time() * (1.0 + same_time); }
 
     Eigen::VectorXd state_at(double time) const {
         return time < integrator_.time() ? integrator_.state_at(time) : integrator_.state();
@@ -253,7 +254,7 @@ class Run {
     void write_shape(double time, const Eigen::VectorXd& y) {
         const PhaseTimer timer(output_, "shapes");
         output_.write_shape(time, sampler_(dynamics_.evaluate(y)));
-        memory_.shapes_written += 1.0;
+        memory_.last_shape = time;
     }
 
     FieldIndex field_index() const {
@@ -261,18 +262,15 @@ class Run {
         return output_.restart_point() ? FieldIndex(directory, start_time()) : FieldIndex(directory);
     }
 
-    // The first multiple of output.field_interval after the fields written so far and after a restart's beginning.
+    // After the fields written so far and after a restart's beginning.
     double next_field_time() const {
         if (!fields_.latest() && !output_.restart_point()) return 0.0;
-        const double interval = parameters_.output.field_interval;
-        const double done = std::max(start_time(), fields_.latest().value_or(0.0));
-        const double count = std::floor(done / interval) + 1.0;
-        return (count * interval > done ? count : count + 1.0) * interval;
+        return next_multiple(parameters_.output.field_interval, std::max(start_time(), fields_.latest().value_or(0.0)));
     }
 
     void write_fields() {
         if (parameters_.output.field_interval <= 0.0 || dynamics_.box() == nullptr) return;
-        for (double time = next_field_time(); time <= integrator_.time(); time = next_field_time()) {
+        for (double time = next_field_time(); reached(time); time = next_field_time()) {
             const PhaseTimer timer(output_, "fields");
             const Evaluation evaluation = dynamics_.evaluate(state_at(time));
             fields_.add(time, vtu_text(field_grid(parameters_, dynamics_, evaluation,

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "phasefield/discretization/mesh.h"
 #include "phasefield/evolution/clearance.h"
 #include "phasefield/evolution/history.h"
+#include "shared/output/output_times.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
 
@@ -17,13 +17,6 @@ namespace endoflow::phasefield {
 namespace {
 
 constexpr int event_iterations = 4;  // of regula falsi within a step
-constexpr double same_time = 1e-12;  // relative difference of times that is round-off
-
-/// The first multiple of an interval after a time; never when the interval is 0.
-double next_multiple(double interval, double time) {
-    if (interval <= 0) return std::numeric_limits<double>::infinity();
-    return (std::floor(time / interval * (1 + same_time)) + 1) * interval;
-}
 
 }  // namespace
 

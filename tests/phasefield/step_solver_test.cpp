@@ -78,7 +78,8 @@ TEST_CASE("a step with the factors of another one ends where its own factors lea
     }
     // Newton's method ends with changes below 4e-7 nm; the bud rises by 0.01 nm in this step.
     CHECK(ends[1].height == Approx(ends[0].height).margin(1e-6));
-    // At the scale of the cells they change curvatures of 0.07/nm by 1e-7 to 1e-6, so the energy by some 1e-6 of itself.
+    // At the scale of the cells they change curvatures of 0.07/nm by 1e-7 to 1e-6, so the energy by some 1e-6 of
+    // itself.
     CHECK(at_start - ends[1].energy == Approx(at_start - ends[0].energy).epsilon(1e-4));
     CHECK(ends[1].dissipation == Approx(ends[0].dissipation).epsilon(1e-4));
 }

@@ -165,6 +165,16 @@ class BoundaryIntegral(AnyEngine, unittest.TestCase):
         with h5py.File(self.directory / "shapes.h5", "r") as file:
             self.assertEqual(len(file["shapes"]), 21)
 
+    def test_shapes_of_a_continued_run_come_at_multiples_after_the_restart(self):
+        """The restart is from the time before the last step, 1e-5 µs or later."""
+        self.copy_finished_run()
+        self.assert_goes_on("time.end=4e-5", "output.shape_interval=5e-6")
+        with h5py.File(self.directory / "shapes.h5") as file:
+            times = [float(shape.attrs["time"]) for shape in file["shapes"].values()]
+        first = round(times[1] / 5e-6)
+        self.assertGreaterEqual(first, 2)
+        np.testing.assert_allclose(times, [0, *5e-6 * np.arange(first, 9)], rtol=1e-12)
+
 
 class PhaseField(AnyEngine, unittest.TestCase):
     engine = "phase-field"
