@@ -22,8 +22,6 @@ const Number& feature(const AtPoint<Number>& at, unsigned int operation) {
     return operation == 0 ? at.value : operation == 1 ? at.r : at.z;
 }
 
-using PointValues = std::array<std::array<double, 3>, n_fields>;
-
 template <class Number>
 Fields<Number> fields_from(const PointValues& values) {
     Fields<Number> x;
@@ -149,6 +147,7 @@ class CellEquations {
           model_(&model),
           step_(&step),
           iterate_(&iterate),
+          manufactured_(&history.manufactured),
           past_(space, quadrature, step, history),
           values_(space.element.n_dofs_per_cell()),
           points_(quadrature.size()) {}
@@ -165,8 +164,9 @@ class CellEquations {
             PointValues values;
             for (unsigned int f = 0; f < n_fields; ++f)
                 values[f] = {local.field(f).value[q], local.field(f).r[q], local.field(f).z[q]};
-            visit(q, quadrature.weight(q) * box.hr * box.hz * r,
-                  point_equations(fields_from<Number>(values), r, points_[q], *step_, *model_));
+            auto rows = point_equations(fields_from<Number>(values), r, points_[q], *step_, *model_);
+            if (*manufactured_) take_off((*manufactured_)(r, box.z0 + box.hz * quadrature.point(q)[1]), r, q, rows);
+            visit(q, quadrature.weight(q) * box.hr * box.hz * r, rows);
         }
     }
 
@@ -174,9 +174,20 @@ class CellEquations {
     LocalSystem local;
 
   private:
+    template <class Number>
+    void take_off(const PointValues& solution, double r, unsigned int q, Fields<Number>& rows) const {
+        const auto own = point_equations(fields_from<double>(solution), r, points_[q], *step_, *model_);
+        for (unsigned int f = 0; f < n_fields; ++f) {
+            rows[f].value = rows[f].value - own[f].value;
+            rows[f].r = rows[f].r - own[f].r;
+            rows[f].z = rows[f].z - own[f].z;
+        }
+    }
+
     const BendingModel* model_;
     const StepNumbers* step_;
     const Vector* iterate_;
+    const std::function<PointValues(double, double)>* manufactured_;
     HistoryFields past_;
     dealii::Vector<double> values_;
     std::vector<PointHistory> points_;
