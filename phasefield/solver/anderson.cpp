@@ -63,7 +63,7 @@ void AndersonMixing::advance(Vector& x, const Vector& increment) {
     x += movement;
     x.update_ghost_values();
     last_increment_ = increment;
-    last_movement_ = std::move(movement);
+    last_movement_ = movement;
 }
 
 }  // namespace endoflow::phasefield

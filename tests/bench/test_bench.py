@@ -50,6 +50,7 @@ class Costs(unittest.TestCase):
             history = Path(scratch) / "history.csv"
             history.write_text("time_us,wall_s\n0,1\n0.4,3\n1,5\n2.5,8\n", encoding="utf-8")
             found = measurements.costs(history, 2.0, (1, 2, 20))
+            self.assertEqual(measurements.late_step_cost(history, 2.0), 6.0)
         self.assertEqual(found, [(1.0, 10.0, 2), (2, 16.0, 3), (2.5, 16.0, 3)])
 
 
