@@ -38,7 +38,7 @@ bool ProductionScheme::adapt_once(const MembraneCurve& curve) {
 }
 
 void ProductionScheme::follow(const MembraneCurve& curve) {
-    if (moved_ < follow_after_motion * parameters_.phase_field.epsilon) return;
+    if (moved_ < follow_after_motion(parameters_)) return;
     moved_ = 0;
     bool adapted = false;
     for (int pass = 0; pass < most_passes && adapt_once(curve); ++pass) adapted = true;

@@ -12,6 +12,8 @@ constexpr double edge_cells = 0.75;           // largest cell at the patch's edg
 constexpr double edge_part = 0.47;            // |c − ½| below this is the edge: in the bud 1 − c comes to 0.016
 constexpr double fine_band = 3;               // half-width of the finer cells, in units of ε
 constexpr double neck_cells = 0.25;           // largest cell where the membrane is narrow, in units of its radius there
+constexpr double motion_with_flow = 1.5;      // after which the mesh follows, in units of ε
+constexpr double motion_without_flow = 0.5;   // the same
 constexpr unsigned int most_neck_levels = 2;  // with cells of 4/3 ε: necks below 1.4 ε have left the model anyway
 
 using Indices = std::vector<std::size_t>;
@@ -72,11 +74,15 @@ Indices patch_edge(const MembraneCurve& curve) {
 
 }  // namespace
 
+double follow_after_motion(const Parameters& p) {
+    return (p.fluid.dynamics == Dynamics::flow ? motion_with_flow : motion_without_flow) * p.phase_field.epsilon;
+}
+
 std::vector<RefinedBand> refined_bands(const MembraneCurve& curve, const Parameters& parameters) {
     const auto& p = parameters.phase_field;
     const auto layer_level = static_cast<unsigned int>(p.far_refinements);
     const double band = p.band_width * p.epsilon, inner = fine_band * p.epsilon, outer = inner + p.cell_size;
-    const Path path(curve, follow_after_motion * p.epsilon);
+    const Path path(curve, follow_after_motion(parameters));
     std::vector<RefinedBand> out{{path.of(whole(curve)), layer_level, band, band + 2 * p.cell_size}};
     const double wanted = edge_cells * parameters.molecules.interface_width;
     const auto edge_levels = static_cast<unsigned int>(std::max(0.0, std::ceil(std::log2(p.cell_size / wanted))));

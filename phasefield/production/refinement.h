@@ -7,8 +7,8 @@
 
 namespace endoflow::phasefield::production {
 
-/// The mesh follows when the membrane has moved this far, in units of ε.
-inline constexpr double follow_after_motion = 1.5;
+/// The mesh follows when the membrane has moved this far [nm]; less without a flow, whose velocity tells where it goes.
+double follow_after_motion(const Parameters& parameters);
 
 /// Where the mesh is fine, here and where the membrane will be when the mesh follows again: around the whole membrane,
 /// finer at the patch's edge (three quarters of its width) and where the membrane is narrow (a quarter of its radius of

@@ -84,7 +84,7 @@ TEST_CASE("cells are fine where the membrane will be when the mesh follows", "[r
     const double at_rest = far_from_tip(refined_bands(curve, p));
     for (std::size_t i = 0; i < curve.size(); ++i) curve.u_z[i] = curve.z[i] > 110 ? 200 : 0;
     const auto bands = refined_bands(curve, p);
-    CHECK(far_from_tip(bands) == Approx(at_rest + follow_after_motion * p.phase_field.epsilon).margin(0.11));
+    CHECK(far_from_tip(bands) == Approx(at_rest + follow_after_motion(p)).margin(0.11));
     // Not in front of what rests.
     const double beside = 20 + p.phase_field.band_width * p.phase_field.epsilon;
     CHECK(wanted_size(bands, p, beside + 0.1, 100) > cell_size);
