@@ -69,8 +69,8 @@ def main(program, output):
     output.mkdir(parents=True, exist_ok=True)
     found = [(str(page.relative_to(ROOT / "docs").with_suffix("")), page) for page in pages()]
     entries = [(name, title(page)) for name, page in found]
-    place = [name for name, _ in entries].index("case-files") + 1
-    entries.insert(place, (PARAMETERS, "Parameters"))
+    after_cases = [name for name, _ in entries].index("case-files") + 1
+    entries.insert(after_cases, (PARAMETERS, "Parameters"))
     for name, page in found:
         depth = name.count("/")
         (output / name).parent.mkdir(parents=True, exist_ok=True)
@@ -78,7 +78,9 @@ def main(program, output):
     pandoc(parameters_page(program), output / f"{PARAMETERS}.html", "Parameters", navigation(entries, PARAMETERS, 0), 0)
     shutil.copytree(ROOT / "docs" / "images", output / "images", dirs_exist_ok=True)
     for table in (ROOT / "docs").rglob("*.csv"):
-        shutil.copy(table, output / table.relative_to(ROOT / "docs"))
+        place = output / table.relative_to(ROOT / "docs")
+        place.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(table, place)
     shutil.copy(HERE / "page.css", output / "page.css")
     if MATH_FONT.exists():
         shutil.copy(MATH_FONT, output / "math.ttf")

@@ -9,7 +9,7 @@ ROOT = Path(__file__).resolve().parents[2]
 #: Order of the pages below docs/; any others follow in the order of their names.
 ORDER = (
     "index", "install", "first-run", "case-files", "outputs", "studies", "paper", "paraview", "python", "model",
-    "boundary-integral", "phase-field", "statics", "verification", "results/standard-case", "results/smooth-case", "architecture", "developer-guide", "extending",
+    "boundary-integral", "phase-field", "statics", "verification", "results/standard-case", "results/smooth-case", "results/paper", "architecture", "developer-guide", "extending",
 )  # fmt: skip
 
 #: A fenced block with an optional comment above it.
