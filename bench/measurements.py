@@ -51,9 +51,13 @@ class Bench:
             raise RunFailed(f"endoflow {' '.join(map(str, arguments))} ended with {process.returncode}: {line}")
         return time.monotonic() - begin
 
+    def directory(self, name):
+        """Where a run lies."""
+        return self.output / "runs" / name
+
     def run(self, engine, name, *settings):
         """One run of the standard case; returns run.json."""
-        directory = self.output / "runs" / name
+        directory = self.directory(name)
         shutil.rmtree(directory, ignore_errors=True)
         options = [option for setting in settings for option in ("--set", setting)]
         self.command("run", engine, STANDARD_CASE, "-o", directory, *options)
@@ -108,7 +112,7 @@ def to_the_end(bench):
 def patch_sweep(bench):
     """`endoflow sweep` over 11 patch radii to budding or 3 µs, all cores, with its table and plots; --quick: 3 radii to 0.1 µs."""
     radii, end = ("20:60:20", 0.1) if bench.quick else ("20:60:4", 3)
-    directory = bench.output / "runs" / "patch_sweep"
+    directory = bench.directory("patch_sweep")
     shutil.rmtree(directory, ignore_errors=True)
     wall = bench.command(
         *("sweep", STANDARD_CASE, "--vary", f"molecules.patch_radius={radii}", "--engine", "boundary-integral"),
@@ -131,20 +135,27 @@ def phase_field_schemes(bench):
     if not (bench.build / "endoflow-phase-field").exists():
         return {"skipped": "endoflow was built without the phase-field engine (ENDOFLOW_PHASEFIELD=OFF)"}
     times, paper_end = ((0.001,), 0.0005) if bench.quick else ((1, 3, 20), 0.1)
-    per_step = []
+    per_steps = []
     for _ in range(bench.repeats):
         paper = bench.run("phase-field", PAPER_RUN, "phase_field.scheme=paper", f"time.end={paper_end}", NO_FIELDS)
-        per_step.append(late_step_cost(bench.output / "runs" / PAPER_RUN / "history.csv", cpu_per_wall(paper)))
-    per_step = median(per_step)
+        per_steps.append(late_step_cost(bench.directory(PAPER_RUN) / "history.csv", cpu_per_wall(paper)))
+    per_step = median(per_steps)
     longest_step = paper["parameters"]["phase_field"]["max_step"]
     production = bench.run("phase-field", PRODUCTION_RUN, f"time.end={times[-1]}", NO_FIELDS)
-    history = bench.output / "runs" / PRODUCTION_RUN / "history.csv"
+    history = bench.directory(PRODUCTION_RUN) / "history.csv"
+    paper_per_time = per_step / longest_step
     return {
         "paper_cpu_s_per_step": per_step,
         "paper_longest_step_us": longest_step,
         "exit_reason": production["exit_reason"],
         "to": [
-            {"time_us": time, "cpu_s": cpu, "steps": steps, "ratio": per_step * time / longest_step / cpu}
+            {
+                "time_us": time,
+                "cpu_s": cpu,
+                "steps": steps,
+                "paper_cpu_s": paper_per_time * time,
+                "ratio": paper_per_time * time / cpu,
+            }
             for time, cpu, steps in costs(history, cpu_per_wall(production), times)
         ],
     }

@@ -45,14 +45,13 @@ def patch_sweep(figure):
 
 def phase_field_schemes(figure):
     """CPU time of both schemes."""
-    longest = figure["paper_longest_step_us"]
     rows = [
         f"| {to['time_us']:.4g} | {to['cpu_s']:.4g} | {to['steps']} | "
-        f"{figure['paper_cpu_s_per_step'] * to['time_us'] / longest:.4g} | {to['ratio']:.3g} |"
+        f"{to['paper_cpu_s']:.4g} | {to['ratio']:.3g} |"
         for to in figure["to"]
     ]
     return [
-        f"`paper`: {figure['paper_cpu_s_per_step']:.3g} s CPU per step of at most {1e3 * longest:g} ns. "
+        f"`paper`: {figure['paper_cpu_s_per_step']:.3g} s CPU per step of at most {1e3 * figure['paper_longest_step_us']:g} ns. "
         f"`production` ended: {figure['exit_reason']}.",
         "",
         "| to, µs | `production`: CPU s | steps | `paper`: CPU s, at least | ratio, at least |",

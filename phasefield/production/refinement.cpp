@@ -31,8 +31,8 @@ class Path {
             ahead_[i] = {-speed * dz, speed * dr};  // the velocity's part across the membrane
             fastest = std::max(fastest, std::hypot(ahead_[i].r, ahead_[i].z));
         }
-        for (auto& step : ahead_)
-            step = fastest > 0 ? PlanePoint{step.r * distance / fastest, step.z * distance / fastest} : PlanePoint{};
+        const double time = fastest > 0 ? distance / fastest : 0;
+        for (auto& step : ahead_) step = {step.r * time, step.z * time};
     }
 
     [[nodiscard]] std::vector<PlanePoint> of(const Indices& indices) const {

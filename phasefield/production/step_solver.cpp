@@ -73,8 +73,9 @@ StepSolver::Ending StepSolver::iterate(const Problem& problem, Vector& solution,
         const bool foreseen = newton != nullptr && iteration > 0 && contraction < fast_contraction;
         const bool arrived = change <= wanted_ || (foreseen && change * contraction <= 0.5 * wanted_);
         if (arrived && mixing->norm(step) <= largest_rest) return Ending::converged;
-        const double rate = std::log(change / first) / iteration;  // of convergence, negative
-        if (newton == nullptr && iteration >= seen_enough && std::log(wanted_ / first) < most_iterations * rate) break;
+        if (newton == nullptr && iteration >= seen_enough &&
+            std::log(wanted_ / first) < most_iterations * std::log(change / first) / iteration)
+            break;  // it would take more at this rate
         last = change;
     }
     return Ending::slow;

@@ -4,11 +4,11 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 
 #include "phasefield/discretization/mesh.h"
 #include "phasefield/production/production_scheme.h"
 #include "phasefield/solver/anderson.h"
-#include "shared/geometry/observables.h"
 #include "small_case.h"
 
 using namespace endoflow;

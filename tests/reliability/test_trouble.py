@@ -103,6 +103,10 @@ class AnyEngine:
         last_row = (self.directory / "history.csv").read_text().splitlines()[-1]
         self.assert_goes_on(f"time.end={1.01 * float(last_row.split(',')[0]):.17g}")
 
+    def shape_times(self):
+        with h5py.File(self.directory / "shapes.h5") as file:
+            return [float(shape.attrs["time"]) for shape in file["shapes"].values()]
+
     def wait_until(self, process, reached):
         while process.poll() is None and not reached():
             time.sleep(0.02)
@@ -169,8 +173,7 @@ class BoundaryIntegral(AnyEngine, unittest.TestCase):
         """The restart is from the time before the last step, 1e-5 µs or later."""
         self.copy_finished_run()
         self.assert_goes_on("time.end=4e-5", "output.shape_interval=5e-6")
-        with h5py.File(self.directory / "shapes.h5") as file:
-            times = [float(shape.attrs["time"]) for shape in file["shapes"].values()]
+        times = self.shape_times()
         first = round(times[1] / 5e-6)
         self.assertGreaterEqual(first, 2)
         np.testing.assert_allclose(times, [0, *5e-6 * np.arange(first, 9)], rtol=1e-12)
@@ -182,9 +185,7 @@ class PhaseField(AnyEngine, unittest.TestCase):
     def test_shapes_of_a_continued_run_come_at_multiples_after_the_restart(self):
         self.copy_finished_run()
         self.assert_goes_on("time.end=4e-5", "output.shape_interval=6e-6")
-        with h5py.File(self.directory / "shapes.h5") as file:
-            times = [float(shape.attrs["time"]) for shape in file["shapes"].values()]
-        np.testing.assert_allclose(times, [0, 2e-5, 2.4e-5, 3e-5, 3.6e-5, 4e-5], rtol=1e-12)
+        np.testing.assert_allclose(self.shape_times(), [0, 2e-5, 2.4e-5, 3e-5, 3.6e-5, 4e-5], rtol=1e-12)
 
     def test_disk_full_while_vectors_are_written(self):
         """The saved vectors are by far the largest file, and are written by MPI, which says nothing."""
