@@ -1,6 +1,7 @@
 #include "phasefield/contour/cell_contour.h"
 
 #include <cmath>
+#include <utility>
 
 #include "phasefield/weak_forms/bending.h"
 #include "phasefield/weak_forms/interface_geometry.h"
@@ -61,8 +62,9 @@ ContourPoint CellContour::point(double x, double y) const {
             value_at(velocity_element_, u_z_, unit)};
 }
 
-ContourPoint CellContour::root(const Edge& e) const {
-    const auto along = [&](double t) { return phi_at(e.x0 + t * (e.x1 - e.x0), e.y0 + t * (e.y1 - e.y0)); };
+ContourPoint CellContour::root(Corner a, Corner b) const {
+    if (a.x > b.x || a.y > b.y) std::swap(a, b);  // the neighbour shall find the same root
+    const auto along = [&](double t) { return phi_at(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)); };
     double low = 0, high = 1, f_low = along(0), f_high = along(1), t = std::abs(f_low) < std::abs(f_high) ? 0 : 1;
     if (std::min(std::abs(f_low), std::abs(f_high)) > 1e-15)
         for (int iteration = 0; iteration < 60 && high - low > 1e-14; ++iteration) {
@@ -74,35 +76,54 @@ ContourPoint CellContour::root(const Edge& e) const {
             (same_side ? f_low : f_high) = f;
             if (std::abs(f) < 1e-15) break;
         }
-    return point(e.x0 + t * (e.x1 - e.x0), e.y0 + t * (e.y1 - e.y0));
+    return point(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y));
+}
+
+std::vector<CellContour::Corner> CellContour::corners(unsigned int i, unsigned int k) const {
+    const unsigned int n = subdivisions_;
+    const auto lattice_point = [&](unsigned int a, unsigned int b) {
+        return Corner{double(a) / n, double(b) / n, lattice_[b * (n + 1) + a] >= 0};
+    };
+    const Corner square[4] = {lattice_point(i, k), lattice_point(i + 1, k), lattice_point(i + 1, k + 1),
+                              lattice_point(i, k + 1)};
+    const bool halved[4] = {k == 0 && finer_beyond_[2], i + 1 == n && finer_beyond_[1], k + 1 == n && finer_beyond_[3],
+                            i == 0 && finer_beyond_[0]};
+    std::vector<Corner> out;
+    for (unsigned int e = 0; e < 4; ++e) {
+        out.push_back(square[e]);
+        const Corner& next = square[(e + 1) % 4];
+        const double x = 0.5 * (square[e].x + next.x), y = 0.5 * (square[e].y + next.y);
+        if (halved[e]) out.push_back({x, y, phi_at(x, y) >= 0});
+    }
+    return out;
 }
 
 void CellContour::add_square(unsigned int i, unsigned int k, std::vector<ContourSegment>& segments) const {
-    const unsigned int n = subdivisions_;
-    const auto positive = [&](unsigned int a, unsigned int b) { return lattice_[b * (n + 1) + a] >= 0; };
-    const bool corner[4] = {positive(i, k), positive(i + 1, k), positive(i + 1, k + 1), positive(i, k + 1)};
-    const double x0 = double(i) / n, x1 = double(i + 1) / n, y0 = double(k) / n, y1 = double(k + 1) / n;
-    const Edge edges[4] = {{x0, y0, x1, y0}, {x1, y0, x1, y1}, {x0, y1, x1, y1}, {x0, y0, x0, y1}};
+    const auto around = corners(i, k);
     std::vector<ContourPoint> roots;
-    for (unsigned int e = 0; e < 4; ++e)
-        if (corner[e] != corner[(e + 1) % 4]) roots.push_back(root(edges[e]));
+    bool after_first = false;  // sign between the first root and the second
+    for (std::size_t e = 0; e < around.size(); ++e) {
+        const Corner &a = around[e], &b = around[(e + 1) % around.size()];
+        if (a.positive == b.positive) continue;
+        if (roots.empty()) after_first = b.positive;
+        roots.push_back(root(a, b));
+    }
     if (roots.size() == 2) segments.push_back({roots[0], roots[1]});
     if (roots.size() < 4) return;
-    // A saddle: the value in the middle decides which corners belong together.
-    const bool middle = phi_at(0.5 * (x0 + x1), 0.5 * (y0 + y1)) >= 0;
-    if (middle == corner[0]) {
-        segments.push_back({roots[0], roots[1]});
-        segments.push_back({roots[2], roots[3]});
-    } else {
-        segments.push_back({roots[3], roots[0]});
-        segments.push_back({roots[1], roots[2]});
-    }
+    // The value in the middle decides which stretches of the boundary belong together: those of the other sign are cut
+    // off.
+    const double x = 0.5 * (around.front().x + (i + 1.0) / subdivisions_),
+                 y = 0.5 * (around.front().y + (k + 1.0) / subdivisions_);
+    const bool middle = phi_at(x, y) >= 0;
+    for (std::size_t first = middle == after_first ? 1 : 0; first < roots.size(); first += 2)
+        segments.push_back({roots[first], roots[(first + 1) % roots.size()]});
 }
 
 void CellContour::add_segments(const dealii::DoFHandler<2>::active_cell_iterator& flow_cell,
                                std::vector<ContourSegment>& segments) {
     flow_cell->get_dof_values(*fields_.flow, flow_values_);
     component_values(*fields_.flow_space, fields_.level_set, flow_values_, phi_);
+    box_ = cell_box(flow_cell);
     lattice_.resize(lattice_shapes_.size());
     bool any_positive = false, any_negative = false;
     for (std::size_t point = 0; point < lattice_.size(); ++point) {
@@ -110,9 +131,13 @@ void CellContour::add_segments(const dealii::DoFHandler<2>::active_cell_iterator
         for (std::size_t j = 0; j < phi_.size(); ++j) lattice_[point] += lattice_shapes_[point][j] * phi_[j];
         (lattice_[point] >= 0 ? any_positive : any_negative) = true;
     }
-    if (!any_positive || !any_negative) return;
+    bool finer_beyond = false;
+    for (unsigned int face = 0; face < 4; ++face) {
+        finer_beyond_[face] = flow_cell->face(face)->has_children();
+        finer_beyond = finer_beyond || finer_beyond_[face];
+    }
+    if (!finer_beyond && (!any_positive || !any_negative)) return;
 
-    box_ = cell_box(flow_cell);
     const dealii::DoFHandler<2>::active_cell_iterator molecule_cell(&flow_cell->get_triangulation(), flow_cell->level(),
                                                                     flow_cell->index(), &fields_.molecule_space->dofs);
     molecule_cell->get_dof_values(*fields_.molecules, molecule_values_);

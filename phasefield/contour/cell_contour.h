@@ -2,6 +2,8 @@
 
 #include <deal.II/fe/fe_q.h>
 
+#include <array>
+
 #include "phasefield/contour/chain.h"
 #include "phasefield/discretization/scalar_basis.h"
 #include "phasefield/discretization/space.h"
@@ -21,7 +23,9 @@ struct ContourFields {
 };
 
 /// The pieces of the level set inside single cells: marching squares on a lattice of `subdivisions`² squares per cell,
-/// with the end points found as roots of the polynomial along the lattice lines.
+/// with the end points found as roots of the polynomial along the lattice lines. Along a face with finer cells on its
+/// other side the squares have those cells' lattice points as corners, too: else a level set nearly along the face
+/// could cross it twice on one side and not at all on the other, and the curve would have a gap.
 class CellContour {
   public:
     CellContour(const ContourFields& fields, unsigned int subdivisions);
@@ -29,18 +33,21 @@ class CellContour {
                       std::vector<ContourSegment>& segments);
 
   private:
-    struct Edge {
-        double x0, y0, x1, y1;  // unit coordinates
+    struct Corner {
+        double x, y;  // unit coordinates
+        bool positive;
     };
     [[nodiscard]] double phi_at(double x, double y) const;
-    [[nodiscard]] ContourPoint root(const Edge& edge) const;
+    [[nodiscard]] ContourPoint root(Corner a, Corner b) const;
     [[nodiscard]] ContourPoint point(double x, double y) const;
+    [[nodiscard]] std::vector<Corner> corners(unsigned int i, unsigned int k) const;
     void add_square(unsigned int i, unsigned int k, std::vector<ContourSegment>& segments) const;
 
     ContourFields fields_;
     unsigned int subdivisions_;
     dealii::FE_Q<2> phi_element_, velocity_element_, tension_element_, molecule_element_;
     std::vector<std::vector<double>> lattice_shapes_;
+    std::array<bool, 4> finer_beyond_{};  // left, right, lower, upper face
     CellBox box_{};
     dealii::Vector<double> flow_values_, molecule_values_;
     std::vector<double> phi_, u_r_, u_z_, lambda_, c_, lattice_;

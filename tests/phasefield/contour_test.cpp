@@ -5,6 +5,7 @@
 
 #include "phasefield/contour/contour.h"
 #include "phasefield/evolution/discretization.h"
+#include "phasefield/production/fields.h"
 #include "phasefield/weak_forms/bending.h"
 #include "shared/geometry/observables.h"
 #include "small_case.h"
@@ -67,4 +68,35 @@ TEST_CASE("the contour converges to the surface with the fourth order of cubic e
         area += 2 * M_PI * r * std::sqrt(1 + slope * slope) * 0.01;
     }
     CHECK(measure(fine.curve, BendingModel{MembraneParameters{}}).membrane_area == Approx(area).epsilon(1e-5));
+}
+
+TEST_CASE("the contour has no gap where it crosses a face between cells of two sizes twice", "[contour]") {
+    Parameters p = small_case();
+    p.phase_field.cell_size = 2.5;
+    const double face = 20;
+    const double finer_side = GENERATE(1, -1);  // the curve is on this side but for 0.4 nm, within half a coarse face
+    const auto mesh = coarse_mesh(p, MPI_COMM_SELF);
+    mesh->refine_global(static_cast<unsigned int>(p.phase_field.far_refinements));
+    for (const auto& cell : mesh->active_cell_iterators())
+        if (finer_side * (cell->center()[1] - face) > 0) cell->set_refine_flag();
+    mesh->execute_coarsening_and_refinement();
+    Space space(*mesh, production::field_degrees(p.phase_field));
+    space.distribute();
+    production::close_constraints(space, p);
+    Vector solution = space.vector();
+    const double a = finer_side * GENERATE(1e-3, -1e-3);
+    interpolate(
+        space, production::distance, [&](double r, double z) { return face + a * (r - 10.1) * (r - 10.5) - z; },
+        solution);
+    finish_interpolation(space, solution);
+    solution.update_ghost_values();
+    const Contour contour =
+        extract_contour({&space, &solution, production::distance, production::velocity_r, production::velocity_z,
+                         production::tension, 1, &space, &solution, production::molecule_density},
+                        p);
+    CHECK(contour.components == 1);
+    for (std::size_t i = 0; i < contour.curve.size(); ++i) {
+        const double r = contour.curve.r[i];
+        CHECK(contour.curve.z[i] == Approx(face + a * (r - 10.1) * (r - 10.5)).epsilon(1e-10));
+    }
 }
