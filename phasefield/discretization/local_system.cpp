@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "phasefield/discretization/small_product.h"
+
 namespace endoflow::phasefield {
 
 LocalSystem::LocalSystem(const Space& space, const dealii::Quadrature<2>& quadrature)
@@ -63,21 +65,28 @@ void LocalSystem::residual(unsigned int test, Op test_op, const Coefficients& we
 }
 
 void LocalSystem::jacobian(unsigned int test, Op test_op, unsigned int trial, Op trial_op, const Coefficients& weight) {
-    const auto &test_shapes = shapes(test, test_op), &trial_shapes = shapes(trial, trial_op);
-    const std::size_t n_test = bases_[test]->n_dofs, n_trial = bases_[trial]->n_dofs;
-    auto& block = blocks_[test * n_components_ + trial];
+    std::array<const Coefficients*, 3> weights{};
+    weights[static_cast<unsigned int>(trial_op)] = &weight;
+    jacobian(test, test_op, trial, weights);
+}
+
+void LocalSystem::jacobian(unsigned int test, Op test_op, unsigned int trial,
+                           const std::array<const Coefficients*, 3>& weights) {
+    const std::size_t n_test = bases_[test]->n_dofs, n_trial = bases_[trial]->n_dofs, n_points = bases_[test]->n_points;
     used_[test * n_components_ + trial] = 1;
-    const double factor = scale(test_op) * scale(trial_op);
-    for (std::size_t q = 0; q < weight.size(); ++q) {
-        const double w = factor * weight[q];
-        const double* rows = &test_shapes[q * n_test];
-        const double* columns = &trial_shapes[q * n_trial];
-        for (std::size_t i = 0; i < n_test; ++i) {
-            const double wi = w * rows[i];
-            double* out = &block[i * n_trial];
-            for (std::size_t k = 0; k < n_trial; ++k) out[k] += wi * columns[k];
+    columns_.assign(n_points * n_trial, 0);
+    for (const Op trial_op : {Op::value, Op::dr, Op::dz}) {
+        const Coefficients* weight = weights[static_cast<unsigned int>(trial_op)];
+        if (weight == nullptr) continue;
+        const auto& trial_shapes = shapes(trial, trial_op);
+        const double factor = scale(test_op) * scale(trial_op);
+        for (std::size_t q = 0; q < n_points; ++q) {
+            const double w = factor * (*weight)[q];
+            for (std::size_t k = 0; k < n_trial; ++k) columns_[q * n_trial + k] += w * trial_shapes[q * n_trial + k];
         }
     }
+    add_transposed_product(shapes(test, test_op).data(), columns_.data(), n_points, n_test, n_trial,
+                           blocks_[test * n_components_ + trial].data());
 }
 
 void LocalSystem::linear(unsigned int test, Op test_op, unsigned int trial, Op trial_op, const Coefficients& weight) {

@@ -3,6 +3,7 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -33,6 +34,8 @@ class LocalSystem {
 
     void residual(unsigned int test, Op test_op, const Coefficients& weight);
     void jacobian(unsigned int test, Op test_op, unsigned int trial, Op trial_op, const Coefficients& weight);
+    /// The sum over all three B, their weights in the order of Op; nullptr where there is none.
+    void jacobian(unsigned int test, Op test_op, unsigned int trial, const std::array<const Coefficients*, 3>& weights);
     void linear(unsigned int test, Op test_op, unsigned int trial, Op trial_op, const Coefficients& weight);
 
     /// The present iterate's component (first derivatives).
@@ -61,7 +64,7 @@ class LocalSystem {
     std::vector<std::vector<double>> blocks_;  // [test * n_components + trial][i * n_trial + k]
     std::vector<char> used_;
     CellBox box_{};
-    Coefficients product_;
+    Coefficients product_, columns_;
     std::vector<double> coefficients_;
 };
 

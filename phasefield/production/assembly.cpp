@@ -14,8 +14,6 @@ namespace {
 constexpr std::size_t n_features = 3 * n_fields;
 constexpr Op operations[3] = {Op::value, Op::dr, Op::dz};
 using FeatureDual = Dual<n_features>;
-constexpr double last_normal_below = 1e-2;  // of (1 − φ²)²
-constexpr double shortest_gradient = 0.3;   // below it normals fade: they are about to cross
 
 template <class Number>
 const Number& feature(const AtPoint<Number>& at, unsigned int operation) {
@@ -34,77 +32,6 @@ Fields<Number> fields_from(const PointValues& values) {
     }
     return x;
 }
-
-/// Σ_j a_j y(t_j) and the predicted normal at the quadrature points of one cell.
-class HistoryFields {
-  public:
-    HistoryFields(const Space& space, const dealii::Quadrature<2>& quadrature, const StepNumbers& step,
-                  const StepHistory& history)
-        : space_(&space), step_(&step), history_(&history), values_(space.element.n_dofs_per_cell()) {
-        for (const unsigned int degree : space.degrees)
-            if (!bases_.contains(degree)) bases_.emplace(degree, ScalarBasis(degree, quadrature));
-    }
-
-    void evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell, const CellBox& box,
-                       std::vector<PointHistory>& points) {
-        std::fill(points.begin(), points.end(), PointHistory{});
-        slope_r_.assign(points.size(), 0);
-        slope_z_.assign(points.size(), 0);
-        for (std::size_t j = 0; j < history_->weights.size(); ++j) {
-            cell->get_dof_values((*history_->solutions)[j], values_);
-            add_past(box, history_->weights[j], points);
-        }
-        // The predicted normal in the layer; the last one far from it, where extrapolation would amplify what is there.
-        cell->get_dof_values(history_->solutions->front(), values_);
-        field(distance, box, psi_);
-        cell->get_dof_values(*history_->extrapolated, values_);
-        field(distance, box, predicted_, Derivatives::second);
-        for (std::size_t q = 0; q < points.size(); ++q) {
-            const double well = layer_profile(psi_.value[q], step_->numerics.epsilon).squared_well;
-            const double w = well / (well + last_normal_below);
-            const double r = w * predicted_.r[q] + (1 - w) * psi_.r[q], z = w * predicted_.z[q] + (1 - w) * psi_.z[q];
-            const double length = std::max(std::hypot(r, z), shortest_gradient);
-            points[q].normal_r = r / length;
-            points[q].normal_z = z / length;
-            points[q].slope = points[q].normal_r * slope_r_[q] + points[q].normal_z * slope_z_[q];
-            points[q].change_r = (r * predicted_.rr[q] + z * predicted_.rz[q]) / length;
-            points[q].change_z = (r * predicted_.rz[q] + z * predicted_.zz[q]) / length;
-        }
-    }
-
-  private:
-    void field(unsigned int component, const CellBox& box, ScalarField& out, Derivatives order = Derivatives::first) {
-        component_values(*space_, component, values_, coefficients_);
-        evaluate(bases_.at(space_->degrees[component]), box, coefficients_, order, out);
-    }
-
-    void add_past(const CellBox& box, double weight, std::vector<PointHistory>& points) {
-        field(distance, box, psi_);
-        field(molecule_density, box, c_);
-        field(membrane_stretch, box, s_);
-        field(velocity_r, box, u_r_);
-        field(velocity_z, box, u_z_);
-        for (std::size_t q = 0; q < points.size(); ++q) {
-            const auto layer = layer_profile(psi_.value[q], step_->numerics.epsilon);
-            const double density = membrane_density(layer, step_->weight);
-            points[q].distance += weight * psi_.value[q];
-            slope_r_[q] += weight * psi_.r[q];
-            slope_z_[q] += weight * psi_.z[q];
-            points[q].molecules += weight * density * c_.value[q];
-            points[q].stretching += weight * density * s_.value[q];
-            points[q].velocity_r += weight * u_r_.value[q];
-            points[q].velocity_z += weight * u_z_.value[q];
-        }
-    }
-
-    const Space* space_;
-    const StepNumbers* step_;
-    const StepHistory* history_;
-    std::map<unsigned int, ScalarBasis> bases_;
-    dealii::Vector<double> values_;
-    std::vector<double> coefficients_, slope_r_, slope_z_;
-    ScalarField psi_, predicted_, c_, s_, u_r_, u_z_;
-};
 
 }  // namespace
 
@@ -147,16 +74,15 @@ class CellEquations {
           model_(&model),
           step_(&step),
           iterate_(&iterate),
-          manufactured_(&history.manufactured),
-          past_(space, quadrature, step, history),
-          values_(space.element.n_dofs_per_cell()),
-          points_(quadrature.size()) {}
+          history_(&history),
+          values_(space.element.n_dofs_per_cell()) {}
 
     /// Calls visit(q, measure, rows) at the quadrature points of the cell; measure is r dr dz.
     template <class Number, class Visit>
     void on_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell, const Visit& visit) {
         const CellBox box = cell_box(cell);
-        past_.evaluate_cell(cell, box, points_);
+        const auto& past = history_->points.at(cell->active_cell_index());
+        const auto& manufactured = history_->manufactured;
         cell->get_dof_values(*iterate_, values_);
         local.start(box, values_);
         for (unsigned int q = 0; q < quadrature.size(); ++q) {
@@ -164,8 +90,8 @@ class CellEquations {
             PointValues values;
             for (unsigned int f = 0; f < n_fields; ++f)
                 values[f] = {local.field(f).value[q], local.field(f).r[q], local.field(f).z[q]};
-            auto rows = point_equations(fields_from<Number>(values), r, points_[q], *step_, *model_);
-            if (*manufactured_) take_off((*manufactured_)(r, box.z0 + box.hz * quadrature.point(q)[1]), r, q, rows);
+            auto rows = point_equations(fields_from<Number>(values), r, past[q], *step_, *model_);
+            if (manufactured) take_off(manufactured(r, box.z0 + box.hz * quadrature.point(q)[1]), r, past[q], rows);
             visit(q, quadrature.weight(q) * box.hr * box.hz * r, rows);
         }
     }
@@ -175,8 +101,8 @@ class CellEquations {
 
   private:
     template <class Number>
-    void take_off(const PointValues& solution, double r, unsigned int q, Fields<Number>& rows) const {
-        const auto own = point_equations(fields_from<double>(solution), r, points_[q], *step_, *model_);
+    void take_off(const PointValues& solution, double r, const PointHistory& past, Fields<Number>& rows) const {
+        const auto own = point_equations(fields_from<double>(solution), r, past, *step_, *model_);
         for (unsigned int f = 0; f < n_fields; ++f) {
             rows[f].value = rows[f].value - own[f].value;
             rows[f].r = rows[f].r - own[f].r;
@@ -187,10 +113,8 @@ class CellEquations {
     const BendingModel* model_;
     const StepNumbers* step_;
     const Vector* iterate_;
-    const std::function<PointValues(double, double)>* manufactured_;
-    HistoryFields past_;
+    const StepHistory* history_;
     dealii::Vector<double> values_;
-    std::vector<PointHistory> points_;
 };
 
 /// The loop over cells: residual, and the Jacobian when Number carries derivatives.
@@ -219,9 +143,13 @@ void assemble_cells(const Space& space, const EquationPattern& pattern, CellEqua
         });
         for (unsigned int k = 0; k < n_features; ++k) local.residual(k / 3, operations[k % 3], residual[k]);
         if constexpr (with_jacobian) {
-            for (std::size_t k = 0; k < pattern.entries.size(); ++k) {
-                const auto [row, column] = pattern.entries[k];
-                local.jacobian(row / 3, operations[row % 3], column / 3, operations[column % 3], jacobian[k]);
+            const auto& entries = pattern.entries;  // all derivatives with respect to one field follow each other
+            for (std::size_t k = 0; k < entries.size();) {
+                const unsigned int row = entries[k].row, trial = entries[k].column / 3;
+                std::array<const Coefficients*, 3> weights{};
+                for (; k < entries.size() && entries[k].row == row && entries[k].column / 3 == trial; ++k)
+                    weights[entries[k].column % 3] = &jacobian[k];
+                local.jacobian(row / 3, operations[row % 3], trial, weights);
             }
             local.write_jacobian(cell_matrix);
         }

@@ -1,29 +1,12 @@
 #pragma once
 
-#include <array>
-#include <functional>
-#include <map>
-#include <memory>
+#include <vector>
 
 #include "phasefield/discretization/local_system.h"
-#include "phasefield/production/point_equations.h"
+#include "phasefield/production/step_history.h"
 #include "phasefield/solver/linear_system.h"
 
 namespace endoflow::phasefield::production {
-
-/// Value, ∂r and ∂z of all fields at a point.
-using PointValues = std::array<std::array<double, 3>, n_fields>;
-
-/// The past of a step: solutions newest first with their BDF weights, and the straight line through the last two, which
-/// gives the normals.
-struct StepHistory {
-    const std::vector<Vector>* solutions;
-    std::vector<double> weights;  // [1/µs]
-    const Vector* extrapolated;
-    /// Method of manufactured solutions: the fields at (r, z) whose residual is taken off, so that they are the
-    /// solution.
-    std::function<PointValues(double, double)> manufactured = {};
-};
 
 /// Which rows contain which fields, found by differentiating the equations once.
 class EquationPattern {

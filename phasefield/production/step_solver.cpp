@@ -133,7 +133,7 @@ void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint&
     numbers.rate = checkpoint.scalar("factors_rate");
     numbers.profile_relaxation = checkpoint.scalar("factors_profile_relaxation");
     const std::vector<Vector> solutions(vectors.begin() + vectors_of_guess, vectors.end());
-    const StepHistory history{&solutions, checkpoint.array("factors_weights"), &vectors[1]};
+    const StepHistory history(space, numbers, solutions, checkpoint.array("factors_weights"), vectors[1]);
     factorise({&space, &numbers, &history}, vectors[0]);
 }
 

@@ -69,7 +69,8 @@ std::array<double, n_fields> errors(unsigned int cells) {
     finish_interpolation(space, x);
     const std::vector<Vector> past{x};
     past.front().update_ghost_values();
-    const StepHistory history{&past, {-2000}, &past.front(), solution};
+    StepHistory history(space, numbers, past, {-2000}, past.front());
+    history.manufactured = solution;
     solver.solve(space, numbers, history, x);
 
     std::array<double, n_fields> out{};

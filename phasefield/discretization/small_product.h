@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstddef>
+
+namespace endoflow::phasefield {
+
+/// C += Aᵀ B, row by row in memory: A is n × n_rows, B n × n_columns, C n_rows × n_columns. Made for the few dozen rows
+/// and columns of one cell's blocks, where calling BLAS costs more than the product.
+void add_transposed_product(const double* a, const double* b, std::size_t n, std::size_t n_rows, std::size_t n_columns,
+                            double* c);
+
+}  // namespace endoflow::phasefield

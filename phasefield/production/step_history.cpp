@@ -1,0 +1,108 @@
+#include "phasefield/production/step_history.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "phasefield/discretization/scalar_basis.h"
+#include "phasefield/production/assembly.h"
+
+namespace endoflow::phasefield::production {
+
+namespace {
+
+constexpr double last_normal_below = 1e-2;  // of (1 − φ²)²
+constexpr double shortest_gradient = 0.3;   // below it normals fade: they are about to cross
+
+/// Σ_j a_j y(t_j) and the predicted normal at the quadrature points of one cell.
+class HistoryFields {
+  public:
+    HistoryFields(const Space& space, const dealii::Quadrature<2>& quadrature, const StepNumbers& step,
+                  const StepHistory& history)
+        : space_(&space), step_(&step), history_(&history), values_(space.element.n_dofs_per_cell()) {
+        for (const unsigned int degree : space.degrees)
+            if (!bases_.contains(degree)) bases_.emplace(degree, ScalarBasis(degree, quadrature));
+    }
+
+    void evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell, const CellBox& box,
+                       std::vector<PointHistory>& points) {
+        slope_r_.assign(points.size(), 0);
+        slope_z_.assign(points.size(), 0);
+        for (std::size_t j = 0; j < history_->weights.size(); ++j) {
+            cell->get_dof_values((*history_->solutions)[j], values_);
+            add_past(box, history_->weights[j], points);
+        }
+        // The predicted normal in the layer; the last one far from it, where extrapolation would amplify what is there.
+        cell->get_dof_values(history_->solutions->front(), values_);
+        field(distance, box, psi_);
+        cell->get_dof_values(*history_->extrapolated, values_);
+        field(distance, box, predicted_, Derivatives::second);
+        for (std::size_t q = 0; q < points.size(); ++q) {
+            const double well = layer_profile(psi_.value[q], step_->numerics.epsilon).squared_well;
+            const double w = well / (well + last_normal_below);
+            const double r = w * predicted_.r[q] + (1 - w) * psi_.r[q], z = w * predicted_.z[q] + (1 - w) * psi_.z[q];
+            const double length = std::max(std::hypot(r, z), shortest_gradient);
+            points[q].normal_r = r / length;
+            points[q].normal_z = z / length;
+            points[q].slope = points[q].normal_r * slope_r_[q] + points[q].normal_z * slope_z_[q];
+            points[q].change_r = (r * predicted_.rr[q] + z * predicted_.rz[q]) / length;
+            points[q].change_z = (r * predicted_.rz[q] + z * predicted_.zz[q]) / length;
+        }
+    }
+
+  private:
+    void field(unsigned int component, const CellBox& box, ScalarField& out, Derivatives order = Derivatives::first) {
+        component_values(*space_, component, values_, coefficients_);
+        evaluate(bases_.at(space_->degrees[component]), box, coefficients_, order, out);
+    }
+
+    void add_past(const CellBox& box, double weight, std::vector<PointHistory>& points) {
+        field(distance, box, psi_);
+        field(molecule_density, box, c_);
+        field(membrane_stretch, box, s_);
+        field(velocity_r, box, u_r_);
+        field(velocity_z, box, u_z_);
+        for (std::size_t q = 0; q < points.size(); ++q) {
+            const auto layer = layer_profile(psi_.value[q], step_->numerics.epsilon);
+            const double density = membrane_density(layer, step_->weight);
+            points[q].distance += weight * psi_.value[q];
+            slope_r_[q] += weight * psi_.r[q];
+            slope_z_[q] += weight * psi_.z[q];
+            points[q].molecules += weight * density * c_.value[q];
+            points[q].stretching += weight * density * s_.value[q];
+            points[q].velocity_r += weight * u_r_.value[q];
+            points[q].velocity_z += weight * u_z_.value[q];
+        }
+    }
+
+    const Space* space_;
+    const StepNumbers* step_;
+    const StepHistory* history_;
+    std::map<unsigned int, ScalarBasis> bases_;
+    dealii::Vector<double> values_;
+    std::vector<double> coefficients_, slope_r_, slope_z_;
+    ScalarField psi_, predicted_, c_, s_, u_r_, u_z_;
+};
+
+}  // namespace
+
+StepHistory::StepHistory(const Space& space, const StepNumbers& step, const std::vector<Vector>& past,
+                         std::vector<double> bdf_weights, const Vector& guess)
+    : solutions(&past),
+      weights(std::move(bdf_weights)),
+      extrapolated(&guess),
+      points(space.dofs.get_triangulation().n_active_cells()) {
+    const dealii::QGauss<2> quadrature(gauss_points(step.numerics));
+    HistoryFields fields(space, quadrature, step, *this);
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        auto& of_cell = points[cell->active_cell_index()];
+        of_cell.resize(quadrature.size());
+        fields.evaluate_cell(cell, cell_box(cell), of_cell);
+    }
+}
+
+}  // namespace endoflow::phasefield::production
