@@ -15,17 +15,17 @@ namespace endoflow::phasefield::production {
 namespace {
 
 constexpr std::size_t highest_order = 3;
-constexpr std::size_t guess_points = 2;       // times from which Newton's method and the normals start
-constexpr double first_steps = 4;             // before the error can be estimated
-constexpr double error_part = 0.05;           // of time.tolerance for one step: the errors of the steps add up
-constexpr double safety = 0.85;               // of the step
-constexpr double largest_growth = 1.5;        // per step
-constexpr double almost_all = 0.7;            // of the time left: one step, or ever shorter ones would approach the end
-constexpr double tolerated_excess = 2;        // of the error over its tolerance, beyond which a step is repeated
-constexpr double newton_part = 0.002;         // of the step's tolerance to which Newton's method converges
-constexpr double smallest_step = 1e-5;        // of the first one
-constexpr double relaxation_per_speed = 200;  // M is at most this many times the speed of the membrane
-constexpr double largest_motion = 1.5;        // of the membrane in one step, in units of ε
+constexpr std::size_t guess_points = 2;  // times from which Newton's method and the normals start
+constexpr double first_steps = 4;        // before the error can be estimated
+constexpr double error_part = 0.05;      // of time.tolerance for one step: the errors of the steps add up
+constexpr double safety = 0.85;          // of the step
+constexpr double largest_growth = 1.5;   // per step
+constexpr double almost_all = 0.7;       // of the time left: one step, or ever shorter ones would approach the end
+constexpr double tolerated_excess = 2;   // of the error over its tolerance, beyond which a step is repeated
+constexpr double newton_part = 0.002;    // of the step's tolerance to which Newton's method converges
+constexpr double smallest_step = 1e-5;   // of the first one
+constexpr double relaxation_per_speed = 2000;  // M is at most this many times the speed of the membrane
+constexpr double largest_motion = 1.5;         // of the membrane in one step, in units of ε
 
 /// Largest error of the membrane's position per step [nm].
 double position_tolerance(const Parameters& p) {

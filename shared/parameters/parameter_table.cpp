@@ -165,7 +165,9 @@ std::vector<ParameterRow> molecule_rows() {
         row("molecules", "interface_width", &P::molecules, &S::interface_width, "nm", {0.01, 1e4}, "ε_c",
             "width of the patch's edge, the ε of (24); independent of phase_field.epsilon"),
         row("molecules", "normal_diffusivity", &P::molecules, &S::normal_diffusivity, "nm^2/µs", at_least(0, 1e12),
-            "D_n", "diffusivity across the layer of (39) (phase-field engine, fickian and advection)"),
+            "D_n",
+            "diffusivity across the layer of (39) (phase-field engine, fickian and advection; scheme production: "
+            "at least 1.1e5 nm^5/µs / epsilon^3)"),
     };
 }
 
@@ -212,7 +214,7 @@ std::vector<ParameterRow> phase_field_rows() {
         row("phase_field", "max_motion", &P::phase_field, &S::max_motion, "nm", positive(1e3), "",
             "scheme paper: largest motion of the membrane within one time step"),
         row("phase_field", "profile_relaxation", &P::phase_field, &S::profile_relaxation, "nm/µs", positive(1e9), "M",
-            "scheme production: flux along the normal that keeps |∇ψ| = 1, at most 200 times the membrane's speed"),
+            "scheme production: flux along the normal that keeps |∇ψ| = 1, at most 2000 times the membrane's speed"),
         row("phase_field", "tension_alignment", &P::phase_field, &S::tension_alignment, "nm^3/(pN µs)", positive(1e9),
             "", "scheme production: keeps λ constant across the layer"),
         row("phase_field", "tension_leak", &P::phase_field, &S::tension_leak, "nm^3/(pN µs)", positive(1e6), "",
