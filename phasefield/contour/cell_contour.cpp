@@ -1,5 +1,6 @@
 #include "phasefield/contour/cell_contour.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -112,9 +113,7 @@ void CellContour::add_square(unsigned int i, unsigned int k, std::vector<Contour
     if (roots.size() < 4) return;
     // The value in the middle decides which stretches of the boundary belong together: those of the other sign are cut
     // off.
-    const double x = 0.5 * (around.front().x + (i + 1.0) / subdivisions_),
-                 y = 0.5 * (around.front().y + (k + 1.0) / subdivisions_);
-    const bool middle = phi_at(x, y) >= 0;
+    const bool middle = phi_at((i + 0.5) / subdivisions_, (k + 0.5) / subdivisions_) >= 0;
     for (std::size_t first = middle == after_first ? 1 : 0; first < roots.size(); first += 2)
         segments.push_back({roots[first], roots[(first + 1) % roots.size()]});
 }
@@ -123,7 +122,6 @@ void CellContour::add_segments(const dealii::DoFHandler<2>::active_cell_iterator
                                std::vector<ContourSegment>& segments) {
     flow_cell->get_dof_values(*fields_.flow, flow_values_);
     component_values(*fields_.flow_space, fields_.level_set, flow_values_, phi_);
-    box_ = cell_box(flow_cell);
     lattice_.resize(lattice_shapes_.size());
     bool any_positive = false, any_negative = false;
     for (std::size_t point = 0; point < lattice_.size(); ++point) {
@@ -131,13 +129,11 @@ void CellContour::add_segments(const dealii::DoFHandler<2>::active_cell_iterator
         for (std::size_t j = 0; j < phi_.size(); ++j) lattice_[point] += lattice_shapes_[point][j] * phi_[j];
         (lattice_[point] >= 0 ? any_positive : any_negative) = true;
     }
-    bool finer_beyond = false;
-    for (unsigned int face = 0; face < 4; ++face) {
-        finer_beyond_[face] = flow_cell->face(face)->has_children();
-        finer_beyond = finer_beyond || finer_beyond_[face];
-    }
+    for (unsigned int face = 0; face < 4; ++face) finer_beyond_[face] = flow_cell->face(face)->has_children();
+    const bool finer_beyond = std::ranges::count(finer_beyond_, true) > 0;
     if (!finer_beyond && (!any_positive || !any_negative)) return;
 
+    box_ = cell_box(flow_cell);
     const dealii::DoFHandler<2>::active_cell_iterator molecule_cell(&flow_cell->get_triangulation(), flow_cell->level(),
                                                                     flow_cell->index(), &fields_.molecule_space->dofs);
     molecule_cell->get_dof_values(*fields_.molecules, molecule_values_);

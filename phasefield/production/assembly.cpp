@@ -4,7 +4,6 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
-#include <cmath>
 #include <type_traits>
 
 namespace endoflow::phasefield::production {

@@ -305,7 +305,7 @@ void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry
 /// D_n of c [nm²/µs], larger the thinner the layer. The shear within the layer tilts c's level lines off the normal, by
 /// shear rate × ε²/D_n, and the force e ∇c with them: with a constant D_n the volume's error grew as ε fell.
 inline double normal_diffusivity_of_molecules(const StepNumbers& step) {
-    const double least = least_normal_diffusivity * std::pow(step.numerics.epsilon, -3);
+    const double epsilon = step.numerics.epsilon, least = least_normal_diffusivity / (epsilon * epsilon * epsilon);
     return within_a_step(std::max(step.molecules.normal_diffusivity, least), step);
 }
 
