@@ -12,11 +12,7 @@
 
 namespace endoflow::phasefield {
 
-namespace {
-
-constexpr double layer_edge = 0.9;  // |φ| below this is the layer
-
-}  // namespace
+namespace {}  // namespace
 
 LayerIntegrals integrate_layer(const Spaces& spaces, const State& state, const Parameters& parameters) {
     const dealii::QGauss<2> quadrature(quadrature_points(parameters.phase_field));
@@ -53,7 +49,7 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const Vector& flow_old, cons
     ComponentField old_level_set(spaces.flow, phi, quadrature);
     dealii::Vector<double> values(spaces.flow.element.n_dofs_per_cell());
     CoupledPoints points;
-    std::vector<double> sums(5, 0.0), maxima(3, 0.0);
+    std::vector<double> sums(5, 0.0), maxima(4, 0.0);
     for (const auto& cell : spaces.flow.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         const CellBox box = cell_box(cell);
@@ -74,9 +70,11 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const Vector& flow_old, cons
             if (std::abs(p.phi.value) > layer_edge) continue;
             const double equilibrium = (1 - p.phi.value * p.phi.value) * inverse_sqrt2 / epsilon;
             const double gradient = std::max(std::hypot(phi_old.r[q], phi_old.z[q]), 0.1 * equilibrium);
+            const double thickness_error = std::abs(p.layer.gradient / equilibrium - 1);
             maxima[0] = std::max(maxima[0], std::abs(p.stretching - 1));
-            maxima[1] = std::max(maxima[1], std::abs(p.layer.gradient / equilibrium - 1));
-            maxima[2] = std::max(maxima[2], std::abs(p.phi.value - phi_old.value[q]) / gradient);
+            if (std::abs(p.phi.value) < layer_middle) maxima[1] = std::max(maxima[1], thickness_error);
+            maxima[2] = std::max(maxima[2], thickness_error);
+            maxima[3] = std::max(maxima[3], std::abs(p.phi.value - phi_old.value[q]) / gradient);
         }
     }
     const MPI_Comm communicator = spaces.flow.dofs.get_communicator();
@@ -84,7 +82,7 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const Vector& flow_old, cons
     dealii::Utilities::MPI::max(maxima, communicator, maxima);
     const double inflow =
         extracellular_inflow(spaces.flow, state.flow, u_r, u_z, phi, [](double value) { return value; });
-    return {sums[0], sums[1], sums[2], sums[3], maxima[0], maxima[1], maxima[2], sums[4], inflow};
+    return {sums[0], sums[1], sums[2], sums[3], maxima[0], maxima[1], maxima[2], maxima[3], sums[4], inflow};
 }
 
 }  // namespace endoflow::phasefield

@@ -4,6 +4,9 @@
 
 namespace endoflow::phasefield {
 
+inline constexpr double layer_edge = 0.9;    // |φ| below this is the layer
+inline constexpr double layer_middle = 0.5;  // within it lie 69 % of ∫½|∇φ|
+
 /// Integrals over the layer, with 2πr; collective.
 struct LayerIntegrals {
     double area;        // ½ ∫|∇φ| [nm²]
@@ -14,12 +17,13 @@ LayerIntegrals integrate_layer(const Spaces& spaces, const State& state, const P
 
 /// What one time step did; collective.
 struct StepDiagnostics {
-    double bending_energy;         // (D) [pN nm]
-    double viscous_dissipation;    // ∫ ½ ν D:D [pN nm/µs]
-    double mobility_dissipation;   // ∫ γ g²
-    double extension_dissipation;  // ∫ ξ ε² φ² |∇λ|²
-    double area_strain_max;        // max |s − 1| on |φ| < 0.9
-    double profile_error_max;  // max | √2 ε|∇φ|/(1 − φ²) − 1 | on |φ| < 0.9: how far the layer is from its thickness
+    double bending_energy;            // (D) [pN nm]
+    double viscous_dissipation;       // ∫ ½ ν D:D [pN nm/µs]
+    double mobility_dissipation;      // ∫ γ g²
+    double extension_dissipation;     // ∫ ξ ε² φ² |∇λ|²
+    double area_strain_max;           // max |s − 1| on |φ| < 0.9
+    double thickness_error_max;       // max | √2 ε|∇φ|/(1 − φ²) − 1 | along the membrane, on |φ| < 0.5
+    double profile_error_max;         // the same on |φ| < 0.9, where the layers of two parts of the membrane may meet
     double motion_max;                // max |φ − φⁿ|/|∇φⁿ| on |φ| < 0.9 [nm]
     double net_vertical_force = 0;    // of the membrane on the fluid [pN]; the pinned rim takes it up
     double extracellular_inflow = 0;  // −∮ ½(1 + φ) u·n dA [nm³/µs]

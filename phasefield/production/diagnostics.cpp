@@ -11,12 +11,6 @@
 
 namespace endoflow::phasefield::production {
 
-namespace {
-
-constexpr double layer_edge = 0.9;  // |φ| below this is the layer
-
-}  // namespace
-
 SolutionMeasures measure_solution(const Space& space, const BendingModel& model, const StepNumbers& step,
                                   const Vector& before, const Vector& predicted, const Vector& solution) {
     const auto& numerics = step.numerics;
@@ -24,7 +18,7 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
     LocalSystem local(space, quadrature);
     ComponentField old_distance(space, distance, quadrature), predicted_distance(space, distance, quadrature);
     dealii::Vector<double> values(space.element.n_dofs_per_cell());
-    std::vector<double> sums(7, 0.0), maxima(4, 0.0);
+    std::vector<double> sums(7, 0.0), maxima(5, 0.0);
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         const CellBox box = cell_box(cell);
@@ -57,16 +51,19 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
                             leak * (lambda.r[q] * lambda.r[q] + lambda.z[q] * lambda.z[q]));
             if (std::abs(layer.phi) > layer_edge) continue;
             maxima[0] = std::max(maxima[0], std::abs(s.value[q] - 1));
-            maxima[1] = std::max(maxima[1], std::abs(gradient - 1));
-            maxima[2] = std::max(maxima[2], std::abs(psi.value[q] - old_psi.value[q]));
-            maxima[3] = std::max(maxima[3], std::abs(psi.value[q] - guess.value[q]));
+            const double thickness_error = std::abs(gradient - 1);
+            if (std::abs(layer.phi) < layer_middle) maxima[1] = std::max(maxima[1], thickness_error);
+            maxima[2] = std::max(maxima[2], thickness_error);
+            maxima[3] = std::max(maxima[3], std::abs(psi.value[q] - old_psi.value[q]));
+            maxima[4] = std::max(maxima[4], std::abs(psi.value[q] - guess.value[q]));
         }
     }
     const MPI_Comm communicator = space.dofs.get_communicator();
     dealii::Utilities::MPI::sum(sums, communicator, sums);
     dealii::Utilities::MPI::max(maxima, communicator, maxima);
-    return {
-        {sums[0], sums[1], sums[2]}, {sums[3], sums[4], sums[5], sums[6], maxima[0], maxima[1], maxima[2]}, maxima[3]};
+    return {{sums[0], sums[1], sums[2]},
+            {sums[3], sums[4], sums[5], sums[6], maxima[0], maxima[1], maxima[2], maxima[3]},
+            maxima[4]};
 }
 
 double layer_increment(const Space& space, double epsilon, const Vector& increment, const Vector& solution) {
