@@ -39,8 +39,7 @@ EquationPattern::EquationPattern(const Parameters& p, const BendingModel& model)
     PointValues values;
     for (unsigned int f = 0; f < n_fields; ++f) values[f] = {0.31 + 0.05 * f, 0.27 + 0.03 * f, 0.41 - 0.02 * f};
     PointHistory past;
-    past.normal_r = 0.6;
-    past.normal_z = 0.8;
+    past.normal = past.molecules_normal = {0.6, 0.8};
     past.change_r = 0.3;
     past.change_z = 0.2;
     const auto rows = point_equations(fields_from<FeatureDual>(values), 3.0, past,

@@ -23,6 +23,11 @@ namespace endoflow::phasefield::production {
 // variation of the discrete energy with respect to ψ, and ψ and c move with the same weight: then the work of the force
 // is exactly the energy's change. Without that, motions at the scale of the cells gain energy and grow.
 
+/// A unit vector; shorter where normals cross.
+struct Direction {
+    double r = 0, z = 0;
+};
+
 /// What is known at a point besides the iterate: Σ_j a_j y(t_j) of the past for every quantity with a time derivative,
 /// and of the predicted ψ the normal, at which alignment aims, and how ∇ψ changes along it.
 struct PointHistory {
@@ -30,7 +35,8 @@ struct PointHistory {
     double molecules = 0;   // of δ_m c
     double stretching = 0;  // of δ_m s
     double velocity_r = 0, velocity_z = 0;
-    double normal_r = 0, normal_z = 0;  // n = ∇ψ/|∇ψ|
+    Direction normal;                   // n = ∇ψ/|∇ψ|
+    Direction molecules_normal;         // the same with the error of BDF, for c
     double slope = 0;                   // n·∇Σ_j a_j ψ(t_j)
     double change_r = 0, change_z = 0;  // n·∇∇ψ [1/nm]: 0 where ψ is a distance
 };
@@ -144,13 +150,12 @@ EnergyWeight<Number> energy_weight(const LayerProfile<Number>& layer, double eps
     return {energy_norm * d * part, energy_norm * g1 * d1, energy_norm * (g2 * d1 * d1 + g1 * d2), part};
 }
 
-/// D_n ∇·(δ n n·∇y): keeps y constant along the normal, the predicted one, so that the term is linear.
+/// D_n ∇·(δ n n·∇y): keeps y constant along the normal, a predicted one, so that the term is linear.
 template <class Number>
-void add_alignment(const AtPoint<Number>& y, const PointHistory& past, const Number& diffusivity,
-                   AtPoint<Number>& row) {
-    const Number flux = diffusivity * (past.normal_r * y.r + past.normal_z * y.z);
-    row.r += flux * past.normal_r;
-    row.z += flux * past.normal_z;
+void add_alignment(const AtPoint<Number>& y, const Direction& normal, const Number& diffusivity, AtPoint<Number>& row) {
+    const Number flux = diffusivity * (normal.r * y.r + normal.z * y.z);
+    row.r += flux * normal.r;
+    row.z += flux * normal.z;
 }
 
 /// D of G [nm²] times δ.
@@ -185,7 +190,7 @@ Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, cons
                              w.first * (psi.r * b.r + psi.z * b.z - m.curvature * b.value + density) +
                              w.second * mean * b.value,
                          w.value * b.r + twist * psi.r, w.value * b.z + twist * psi.z};
-    add_alignment(x[normal_force], past, force_diffusivity(p, epsilon), row[normal_force]);
+    add_alignment(x[normal_force], past.normal, force_diffusivity(p, epsilon), row[normal_force]);
     const double compliance = moment_alignment * epsilon * epsilon / model.stiffness(0).value;
     const Number slope = psi.r * b.r + psi.z * b.z, flux = compliance * w.value * slope;
     row[moment].r += flux * psi.r;
@@ -207,7 +212,7 @@ template <class Number>
 void extend_multiplier(const AtPoint<Number>& y, const PointGeometry<Number>& p, const PointHistory& past,
                        double alignment, double leak, AtPoint<Number>& row) {
     const Number phi2 = p.layer.phi * p.layer.phi;
-    add_alignment(y, past, -alignment * (p.layer.squared_well + alignment_floor), row);
+    add_alignment(y, past.normal, -alignment * (p.layer.squared_well + alignment_floor), row);
     add_diffusion(y, -leak * (phi2 * phi2), row);
 }
 
@@ -224,7 +229,7 @@ void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Num
     const Number g = p.density * G.value, molecular = step.weight.cut * p.density * e;
     const double kink = uneven_fade * step.numerics.epsilon * std::hypot(past.change_r, past.change_z);
     const Number uneven = (1 / (1 + kink * kink)) * force_diffusivity(p, step.numerics.epsilon) *
-                          (past.normal_r * G.r + past.normal_z * G.z);
+                          (past.normal.r * G.r + past.normal.z * G.z);
     const Number nu = layer_viscosity(p.layer.phi, step.fluid, step.weight, step.numerics.viscosity_mean);
     const Number hoop = ur.value / r, divergence = ur.r + hoop + uz.z;
     const Number isotropic = x[pressure].value + p.layer.delta * x[pressure_layer].value;
@@ -277,15 +282,15 @@ void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const P
     const auto& psi = x[distance];
     const double epsilon = step.numerics.epsilon, length = epsilon / (0.75 * inverse_sqrt2);  // 1/max δ
     const Number weight = length * p.density;
-    const Number slope = past.normal_r * psi.r + past.normal_z * psi.z, changing = step.rate * slope + past.slope;
+    const Number slope = past.normal.r * psi.r + past.normal.z * psi.z, changing = step.rate * slope + past.slope;
     const Number flux = p.layer.squared_well * ((step_alignment * epsilon * epsilon) * changing +
                                                 (step.profile_relaxation * epsilon) * (slope - 1.0));
     const double far = step.numerics.profile_relaxation * epsilon * profile_floor;
     Number rate =
         weight * (step.rate * psi.value + past.distance + x[velocity_r].value * psi.r + x[velocity_z].value * psi.z);
     if (step.fluid.dynamics == Dynamics::geometric) rate += step.fluid.normal_mobility * weight * x[normal_force].value;
-    row[distance] = {rate, flux * past.normal_r + far * (far_smoothing * psi.r - past.normal_r),
-                     flux * past.normal_z + far * (far_smoothing * psi.z - past.normal_z)};
+    row[distance] = {rate, flux * past.normal.r + far * (far_smoothing * psi.r - past.normal.r),
+                     flux * past.normal.z + far * (far_smoothing * psi.z - past.normal.z)};
 }
 
 /// ∂(δ_m y)/∂t + ∇·(δ_m y v), v the fluid's velocity along the membrane and the level sets' own velocity across it. The
@@ -303,7 +308,8 @@ void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry
 }
 
 /// D_n of c [nm²/µs], larger the thinner the layer. The shear within the layer tilts c's level lines off the normal, by
-/// shear rate × ε²/D_n, and the force e ∇c with them: with a constant D_n the volume's error grew as ε fell.
+/// shear rate × ε²/D_n, and the force e ∇c with them: with a constant D_n the volume's error grew as ε fell, and so it
+/// did with normals that lagged behind in the layer's tails by as little as a tenth of a step.
 inline double normal_diffusivity_of_molecules(const StepNumbers& step) {
     const double epsilon = step.numerics.epsilon, least = least_normal_diffusivity / (epsilon * epsilon * epsilon);
     return within_a_step(std::max(step.molecules.normal_diffusivity, least), step);
@@ -316,7 +322,7 @@ void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     const auto &c = x[molecule_density], &mu = x[molecule_potential];
     add_transport(c.value, x, p, past, past.molecules, step, row[molecule_density]);
     const Number phi2 = p.layer.phi * p.layer.phi;
-    add_alignment(c, past, normal_diffusivity_of_molecules(step) * p.surface, row[molecule_density]);
+    add_alignment(c, past.molecules_normal, normal_diffusivity_of_molecules(step) * p.surface, row[molecule_density]);
     add_diffusion(c, molecule_leak * (phi2 * phi2), row[molecule_density]);
     row[molecule_potential].value = p.surface * mu.value;
     if (step.molecules.transport == Transport::cahn_hilliard) {
@@ -338,7 +344,8 @@ void add_stretching(const Fields<Number>& x, const PointGeometry<Number>& p, con
                     const StepNumbers& step, Fields<Number>& row) {
     const auto& s = x[membrane_stretch];
     add_transport(s.value, x, p, past, past.stretching, step, row[membrane_stretch]);
-    add_alignment(s, past, within_a_step(step.numerics.stretching_alignment, step) * p.surface, row[membrane_stretch]);
+    add_alignment(s, past.normal, within_a_step(step.numerics.stretching_alignment, step) * p.surface,
+                  row[membrane_stretch]);
     const double smoothing = step.numerics.strain_relaxation * step.numerics.cell_size * step.numerics.cell_size;
     add_diffusion(s, (step.numerics.stretching_diffusivity + smoothing) * p.surface, row[membrane_stretch]);
 }

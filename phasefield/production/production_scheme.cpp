@@ -161,7 +161,8 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     trial_.reinit(guess, true);  // assignment alone could keep the ghosts of an earlier mesh
     trial_ = guess;
     trial_.update_ghost_values();
-    const StepHistory history(space_, numbers_, solutions_, bdf.past, guess);
+    const StepHistory history(space_, numbers_, solutions_, bdf.past, extrapolation_weights(end, times_, order()),
+                              guess);
     solver_.solve(space_, numbers_, history, trial_);
 
     auto measures = measure_solution(space_, model_, numbers_, solutions_.front(), predicted, trial_);

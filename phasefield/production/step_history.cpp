@@ -14,10 +14,16 @@ namespace endoflow::phasefield::production {
 
 namespace {
 
-constexpr double last_normal_below = 1e-2;  // of (1 − φ²)²
-constexpr double shortest_gradient = 0.3;   // below it normals fade: they are about to cross
+// Below these values of (1 − φ²)² the last normal takes over. c's, within the layer: the force e ∇c is some 900 pN.
+constexpr double last_normal_below = 1e-2, last_molecules_normal_below = 1e-4;
+constexpr double shortest_gradient = 0.3;  // below it normals fade: they are about to cross
 
-/// Σ_j a_j y(t_j) and the predicted normal at the quadrature points of one cell.
+Direction direction(double r, double z) {
+    const double length = std::max(std::hypot(r, z), shortest_gradient);
+    return {r / length, z / length};
+}
+
+/// Σ_j a_j y(t_j) and the predicted normals at the quadrature points of one cell.
 class HistoryFields {
   public:
     HistoryFields(const Space& space, const dealii::Quadrature<2>& quadrature, const StepNumbers& step,
@@ -31,9 +37,11 @@ class HistoryFields {
                        std::vector<PointHistory>& points) {
         slope_r_.assign(points.size(), 0);
         slope_z_.assign(points.size(), 0);
+        ahead_r_.assign(points.size(), 0);
+        ahead_z_.assign(points.size(), 0);
         for (std::size_t j = 0; j < history_->weights.size(); ++j) {
             cell->get_dof_values((*history_->solutions)[j], values_);
-            add_past(box, history_->weights[j], points);
+            add_past(box, history_->weights[j], history_->ahead[j], points);
         }
         // The predicted normal in the layer; the last one far from it, where extrapolation would amplify what is there.
         cell->get_dof_values(history_->solutions->front(), values_);
@@ -42,14 +50,16 @@ class HistoryFields {
         field(distance, box, predicted_, Derivatives::second);
         for (std::size_t q = 0; q < points.size(); ++q) {
             const double well = layer_profile(psi_.value[q], step_->numerics.epsilon).squared_well;
-            const double w = well / (well + last_normal_below);
-            const double r = w * predicted_.r[q] + (1 - w) * psi_.r[q], z = w * predicted_.z[q] + (1 - w) * psi_.z[q];
-            const double length = std::max(std::hypot(r, z), shortest_gradient);
-            points[q].normal_r = r / length;
-            points[q].normal_z = z / length;
-            points[q].slope = points[q].normal_r * slope_r_[q] + points[q].normal_z * slope_z_[q];
-            points[q].change_r = (r * predicted_.rr[q] + z * predicted_.rz[q]) / length;
-            points[q].change_z = (r * predicted_.rz[q] + z * predicted_.zz[q]) / length;
+            const auto normal = [&](double r, double z, double last_below) {
+                const double w = well / (well + last_below);
+                return direction(w * r + (1 - w) * psi_.r[q], w * z + (1 - w) * psi_.z[q]);
+            };
+            const Direction n = normal(predicted_.r[q], predicted_.z[q], last_normal_below);
+            points[q].normal = n;
+            points[q].molecules_normal = normal(ahead_r_[q], ahead_z_[q], last_molecules_normal_below);
+            points[q].slope = n.r * slope_r_[q] + n.z * slope_z_[q];
+            points[q].change_r = n.r * predicted_.rr[q] + n.z * predicted_.rz[q];
+            points[q].change_z = n.r * predicted_.rz[q] + n.z * predicted_.zz[q];
         }
     }
 
@@ -59,7 +69,7 @@ class HistoryFields {
         evaluate(bases_.at(space_->degrees[component]), box, coefficients_, order, out);
     }
 
-    void add_past(const CellBox& box, double weight, std::vector<PointHistory>& points) {
+    void add_past(const CellBox& box, double weight, double ahead, std::vector<PointHistory>& points) {
         field(distance, box, psi_);
         field(molecule_density, box, c_);
         field(membrane_stretch, box, s_);
@@ -71,6 +81,8 @@ class HistoryFields {
             points[q].distance += weight * psi_.value[q];
             slope_r_[q] += weight * psi_.r[q];
             slope_z_[q] += weight * psi_.z[q];
+            ahead_r_[q] += ahead * psi_.r[q];
+            ahead_z_[q] += ahead * psi_.z[q];
             points[q].molecules += weight * density * c_.value[q];
             points[q].stretching += weight * density * s_.value[q];
             points[q].velocity_r += weight * u_r_.value[q];
@@ -83,16 +95,17 @@ class HistoryFields {
     const StepHistory* history_;
     std::map<unsigned int, ScalarBasis> bases_;
     dealii::Vector<double> values_;
-    std::vector<double> coefficients_, slope_r_, slope_z_;
+    std::vector<double> coefficients_, slope_r_, slope_z_, ahead_r_, ahead_z_;
     ScalarField psi_, predicted_, c_, s_, u_r_, u_z_;
 };
 
 }  // namespace
 
 StepHistory::StepHistory(const Space& space, const StepNumbers& step, const std::vector<Vector>& past,
-                         std::vector<double> bdf_weights, const Vector& guess)
+                         std::vector<double> bdf_weights, std::vector<double> weights_ahead, const Vector& guess)
     : solutions(&past),
       weights(std::move(bdf_weights)),
+      ahead(std::move(weights_ahead)),
       extrapolated(&guess),
       points(space.dofs.get_triangulation().n_active_cells()) {
     const dealii::QGauss<2> quadrature(gauss_points(step.numerics));

@@ -38,7 +38,7 @@ void StepSolver::reinit(const Space& space) {
 
 Vector StepSolver::factorise(const Problem& problem, const Vector& solution) {
     const auto& history = *problem.history;
-    origin_ = {problem.numbers->rate, problem.numbers->profile_relaxation, history.weights, {solution}};
+    origin_ = {problem.numbers->rate, problem.numbers->profile_relaxation, history.weights, history.ahead, {solution}};
     origin_.vectors.push_back(*history.extrapolated);
     for (std::size_t j = 0; j < history.weights.size(); ++j) origin_.vectors.push_back((*history.solutions)[j]);
     assemble(*problem.space, pattern_, model_, *problem.numbers, history, solution, system_);
@@ -116,6 +116,7 @@ std::vector<const Vector*> StepSolver::save(Checkpoint& checkpoint) const {
     checkpoint.scalars["factors_rate"] = origin_.rate;
     checkpoint.scalars["factors_profile_relaxation"] = origin_.profile_relaxation;
     checkpoint.arrays["factors_weights"] = there ? origin_.weights : std::vector<double>{};
+    checkpoint.arrays["factors_ahead"] = there ? origin_.ahead : std::vector<double>{};
     std::vector<const Vector*> out;
     if (there)
         for (const auto& vector : origin_.vectors) out.push_back(&vector);
@@ -133,7 +134,8 @@ void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint&
     numbers.rate = checkpoint.scalar("factors_rate");
     numbers.profile_relaxation = checkpoint.scalar("factors_profile_relaxation");
     const std::vector<Vector> solutions(vectors.begin() + vectors_of_guess, vectors.end());
-    const StepHistory history(space, numbers, solutions, checkpoint.array("factors_weights"), vectors[1]);
+    const StepHistory history(space, numbers, solutions, checkpoint.array("factors_weights"),
+                              checkpoint.array("factors_ahead"), vectors[1]);
     factorise({&space, &numbers, &history}, vectors[0]);
 }
 

@@ -47,7 +47,7 @@ class StepSolver {
     /// What the factors were made from.
     struct Origin {
         double rate = 0, profile_relaxation = 0;
-        std::vector<double> weights;
+        std::vector<double> weights, ahead;
         std::vector<Vector> vectors;  // the iterate, the guess, the solutions before, newest first
     };
 

@@ -69,7 +69,7 @@ std::array<double, n_fields> errors(unsigned int cells) {
     finish_interpolation(space, x);
     const std::vector<Vector> past{x};
     past.front().update_ghost_values();
-    StepHistory history(space, numbers, past, {-2000}, past.front());
+    StepHistory history(space, numbers, past, {-2000}, {1}, past.front());
     history.manufactured = solution;
     solver.solve(space, numbers, history, x);
 

@@ -73,8 +73,7 @@ TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
             p.phase_field.profile_relaxation = p.molecules.mobility = p.phase_field.stretching_alignment = 10;
             const BendingModel model(p.membrane);
             PointHistory past;
-            past.normal_r = 0.6;
-            past.normal_z = 0.8;
+            past.normal = past.molecules_normal = {0.6, 0.8};
             past.change_r = 0.3;
             past.change_z = -0.2;
             past.slope = 0.1;
@@ -123,8 +122,7 @@ TEST_CASE("forces are the variation of the energy", "[production]") {
     auto x = some_point();
     x[normal_force] = {};  // its own terms are not the energy's
     PointHistory past;
-    past.normal_r = 0.6;
-    past.normal_z = 0.8;
+    past.normal = past.molecules_normal = {0.6, 0.8};
     auto rows = point_equations(x, 7.0, past, numbers(p), model);
     for (const Field field : {distance, Field::moment})
         for (std::size_t k = 0; k < 3; ++k) {
