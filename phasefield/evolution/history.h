@@ -19,7 +19,7 @@ struct StepRecord {
     StepDiagnostics diagnostics;
     LayerIntegrals integrals;
     Observables observables;
-    double energy_law_residual;  // dE/dt + dissipation [pN nm/µs], (21)
+    double energy_law_residual;  // dE/dt + dissipation − transport's power [pN nm/µs], (21)
     double unknowns, cells;
 };
 

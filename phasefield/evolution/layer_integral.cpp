@@ -12,7 +12,14 @@
 
 namespace endoflow::phasefield {
 
-namespace {}  // namespace
+namespace {
+
+dealii::DoFHandler<2>::active_cell_iterator same_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell,
+                                                      const Space& space) {
+    return {&cell->get_triangulation(), cell->level(), cell->index(), &space.dofs};
+}
+
+}  // namespace
 
 LayerIntegrals integrate_layer(const Spaces& spaces, const State& state, const Parameters& parameters) {
     const dealii::QGauss<2> quadrature(quadrature_points(parameters.phase_field));
@@ -23,9 +30,7 @@ LayerIntegrals integrate_layer(const Spaces& spaces, const State& state, const P
     for (const auto& cell : spaces.flow.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         fields.evaluate_cell(cell, state, points);
-        const dealii::DoFHandler<2>::active_cell_iterator molecule_cell(&cell->get_triangulation(), cell->level(),
-                                                                        cell->index(), &spaces.molecules.dofs);
-        const ScalarField& c = molecules.on(molecule_cell, cell_box(cell), state.molecules);
+        const ScalarField& c = molecules.on(same_cell(cell, spaces.molecules), cell_box(cell), state.molecules);
         for (std::size_t q = 0; q < points.size(); ++q) {
             const auto& p = points[q];
             const double weight =
@@ -39,7 +44,7 @@ LayerIntegrals integrate_layer(const Spaces& spaces, const State& state, const P
     return {sums[0], sums[1], sums[2]};
 }
 
-StepDiagnostics diagnose_step(const Spaces& spaces, const Vector& flow_old, const State& state,
+StepDiagnostics diagnose_step(const Spaces& spaces, const State& before, const State& state, double tau,
                               const Parameters& parameters) {
     const auto& numerics = parameters.phase_field;
     const double epsilon = numerics.epsilon, xi = numerics.tension_extension * epsilon * epsilon;
@@ -47,14 +52,20 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const Vector& flow_old, cons
     OldFields fields(spaces, parameters, quadrature);
     LocalSystem now(spaces.flow, quadrature);
     ComponentField old_level_set(spaces.flow, phi, quadrature);
+    ComponentField old_molecules(spaces.molecules, concentration, quadrature);
+    ComponentField molecules(spaces.molecules, concentration, quadrature);
+    const double rate = tau > 0 ? 1 / tau : 0;
     dealii::Vector<double> values(spaces.flow.element.n_dofs_per_cell());
     CoupledPoints points;
-    std::vector<double> sums(5, 0.0), maxima(4, 0.0);
+    std::vector<double> sums(6, 0.0), maxima(4, 0.0);
     for (const auto& cell : spaces.flow.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         const CellBox box = cell_box(cell);
         fields.evaluate_cell(cell, state, points);
-        const ScalarField& phi_old = old_level_set.on(cell, box, flow_old);
+        const ScalarField& phi_old = old_level_set.on(cell, box, before.flow);
+        const auto molecule_cell = same_cell(cell, spaces.molecules);
+        const auto &c_old = old_molecules.on(molecule_cell, box, before.molecules),
+                   &c = molecules.on(molecule_cell, box, state.molecules);
         cell->get_dof_values(state.flow, values);
         now.start(box, values);
         const auto &ur = now.field(u_r), &uz = now.field(u_z), &lambda = now.field(tension), &g = now.field(force);
@@ -65,8 +76,10 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const Vector& flow_old, cons
             sums[1] += w * p.viscosity * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
             sums[2] += w * numerics.mobility * g.value[q] * g.value[q];
             sums[3] += w * xi * p.phi.value * p.phi.value * (lambda.r[q] * lambda.r[q] + lambda.z[q] * lambda.z[q]);
-            sums[4] += w * (g.value[q] * p.phi.z +
-                            concentration_force(p.phi.value, p.moment, p.bending, epsilon).value * p.c_z);
+            const double e = concentration_force(p.phi.value, p.moment, p.bending, epsilon).value;
+            sums[4] += w * (g.value[q] * p.phi.z + e * p.c_z);
+            if (tau > 0)
+                sums[5] += w * e * (rate * (c.value[q] - c_old.value[q]) + ur.value[q] * p.c_r + uz.value[q] * p.c_z);
             if (std::abs(p.phi.value) > layer_edge) continue;
             const double equilibrium = (1 - p.phi.value * p.phi.value) * inverse_sqrt2 / epsilon;
             const double gradient = std::max(std::hypot(phi_old.r[q], phi_old.z[q]), 0.1 * equilibrium);
@@ -82,7 +95,7 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const Vector& flow_old, cons
     dealii::Utilities::MPI::max(maxima, communicator, maxima);
     const double inflow =
         extracellular_inflow(spaces.flow, state.flow, u_r, u_z, phi, [](double value) { return value; });
-    return {sums[0], sums[1], sums[2], sums[3], maxima[0], maxima[1], maxima[2], maxima[3], sums[4], inflow};
+    return {sums[0], sums[1], sums[2], sums[3], sums[5], maxima[0], maxima[1], maxima[2], maxima[3], sums[4], inflow};
 }
 
 }  // namespace endoflow::phasefield

@@ -17,10 +17,11 @@ LayerIntegrals integrate_layer(const Spaces& spaces, const State& state, const P
 
 /// What one time step did; collective.
 struct StepDiagnostics {
-    double bending_energy;            // (D) [pN nm]
-    double viscous_dissipation;       // ∫ ½ ν D:D [pN nm/µs]
-    double mobility_dissipation;      // ∫ γ g²
-    double extension_dissipation;     // ∫ ξ ε² φ² |∇λ|²
+    double bending_energy;         // (D) [pN nm]
+    double viscous_dissipation;    // ∫ ½ ν D:D [pN nm/µs]
+    double mobility_dissipation;   // ∫ γ g²
+    double extension_dissipation;  // ∫ ξ ε² φ² |∇λ|²
+    double transport_power;  // ∫ ∂E/∂c (∂c/∂t + u·∇c): what molecules that move along the membrane add to E
     double area_strain_max;           // max |s − 1| on |φ| < 0.9
     double thickness_error_max;       // max | √2 ε|∇φ|/(1 − φ²) − 1 | along the membrane, on |φ| < 0.5
     double profile_error_max;         // the same on |φ| < 0.9, where the layers of two parts of the membrane may meet
@@ -28,7 +29,8 @@ struct StepDiagnostics {
     double net_vertical_force = 0;    // of the membrane on the fluid [pN]; the pinned rim takes it up
     double extracellular_inflow = 0;  // −∮ ½(1 + φ) u·n dA [nm³/µs]
 };
-StepDiagnostics diagnose_step(const Spaces& spaces, const Vector& flow_old, const State& state,
+/// From `before` to `state` in τ [µs]; 0: `before` is the present state.
+StepDiagnostics diagnose_step(const Spaces& spaces, const State& before, const State& state, double tau,
                               const Parameters& parameters);
 
 }  // namespace endoflow::phasefield

@@ -20,7 +20,7 @@ PaperScheme::PaperScheme(const Parameters& parameters, MPI_Comm communicator)
 
 StepOutcome PaperScheme::present() const {
     const Spaces& spaces = discretization_.spaces;
-    return {diagnose_step(spaces, state_.flow, state_, discretization_.parameters),
+    return {diagnose_step(spaces, state_, state_, 0, discretization_.parameters),
             extract_contour(contour_fields(spaces, state_), discretization_.parameters),
             {}};
 }
@@ -48,7 +48,7 @@ void PaperScheme::save(const std::filesystem::path& directory, Checkpoint& check
 StepOutcome PaperScheme::attempt(double /*time*/, double tau) {
     const Spaces& spaces = discretization_.spaces;
     take_over(trial_, advance(discretization_, state_, tau));
-    StepOutcome outcome{diagnose_step(spaces, state_.flow, trial_, discretization_.parameters), {}, {}};
+    StepOutcome outcome{diagnose_step(spaces, state_, trial_, tau, discretization_.parameters), {}, {}};
     const double motion = outcome.diagnostics.motion_max;
     if (control_.too_far(motion) || !std::isfinite(outcome.diagnostics.bending_energy))
         outcome.rejection = "motion " + std::to_string(motion) + " nm";

@@ -27,7 +27,7 @@ void TimeLoop::checkpoint() {
     checkpoint.time_us = time_;
     checkpoint.texts["mesh"] = slot;
     checkpoint.scalars = {{"bending_energy", last_energy_},
-                          {"dissipated_power", last_power_},
+                          {"energy_loss_rate", last_loss_},
                           {"checkpoints_written", checkpoints_written_},
                           {"neck_radius", neck_radius_.value_or(-1)},
                           {"budding_time", budding_time_.value_or(-1)}};
@@ -51,7 +51,7 @@ void TimeLoop::restart(const Checkpoint& checkpoint) {
     time_ = checkpoint.time_us;
     plan_output(time_);
     last_energy_ = checkpoint.scalar("bending_energy");
-    last_power_ = checkpoint.scalar("dissipated_power");
+    last_loss_ = checkpoint.scalar("energy_loss_rate");
     checkpoints_written_ = checkpoint.scalar("checkpoints_written");
     neck_radius_ = optional("neck_radius");
     budding_time_ = optional("budding_time");

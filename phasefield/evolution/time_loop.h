@@ -43,7 +43,7 @@ class TimeLoop {
     BendingModel model_;
     Contour contour_;
     Observables observables_{};
-    double time_ = 0, last_energy_ = 0, last_power_ = 0;
+    double time_ = 0, last_energy_ = 0, last_loss_ = 0;
     double next_shape_ = 0, next_fields_ = 0;  // when they are due [µs]
     double checkpoints_written_ = 0;
     std::vector<double> field_times_;

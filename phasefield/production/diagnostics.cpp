@@ -12,19 +12,22 @@
 namespace endoflow::phasefield::production {
 
 SolutionMeasures measure_solution(const Space& space, const BendingModel& model, const StepNumbers& step,
-                                  const Vector& before, const Vector& predicted, const Vector& solution) {
+                                  const Vector& before, const Vector& predicted, const Vector& rate,
+                                  const Vector& solution) {
     const auto& numerics = step.numerics;
     const dealii::QGauss<2> quadrature(gauss_points(numerics));
     LocalSystem local(space, quadrature);
+    ComponentField molecule_rate(space, molecule_density, quadrature);
     ComponentField old_distance(space, distance, quadrature), predicted_distance(space, distance, quadrature);
     dealii::Vector<double> values(space.element.n_dofs_per_cell());
-    std::vector<double> sums(7, 0.0), maxima(5, 0.0);
+    std::vector<double> sums(8, 0.0), maxima(5, 0.0);
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         const CellBox box = cell_box(cell);
         cell->get_dof_values(solution, values);
         local.start(box, values);
-        const auto &old_psi = old_distance.on(cell, box, before), &guess = predicted_distance.on(cell, box, predicted);
+        const auto &old_psi = old_distance.on(cell, box, before), &guess = predicted_distance.on(cell, box, predicted),
+                   &c_rate = molecule_rate.on(cell, box, rate);
         const auto &ur = local.field(velocity_r), &uz = local.field(velocity_z), &psi = local.field(distance),
                    &lambda = local.field(tension), &c = local.field(molecule_density),
                    &s = local.field(membrane_stretch), &b = local.field(moment), &g = local.field(normal_force);
@@ -49,6 +52,8 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
                 sums[5] += w * step.fluid.normal_mobility * g.value[q] * g.value[q] * density;
             sums[6] += w * (numerics.tension_alignment * (layer.squared_well + alignment_floor) * along * along +
                             leak * (lambda.r[q] * lambda.r[q] + lambda.z[q] * lambda.z[q]));
+            const double e = b.value[q] * bending.curvature_c + 0.5 * K * K * bending.beta_c;
+            sums[7] += w * density * e * (c_rate.value[q] + ur.value[q] * c.r[q] + uz.value[q] * c.z[q]);
             if (std::abs(layer.phi) > layer_edge) continue;
             maxima[0] = std::max(maxima[0], std::abs(s.value[q] - 1));
             const double thickness_error = std::abs(gradient - 1);
@@ -62,8 +67,15 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
     dealii::Utilities::MPI::sum(sums, communicator, sums);
     dealii::Utilities::MPI::max(maxima, communicator, maxima);
     return {{sums[0], sums[1], sums[2]},
-            {sums[3], sums[4], sums[5], sums[6], maxima[0], maxima[1], maxima[2], maxima[3]},
+            {sums[3], sums[4], sums[5], sums[6], sums[7], maxima[0], maxima[1], maxima[2], maxima[3]},
             maxima[4]};
+}
+
+SolutionMeasures measure_solution(const Space& space, const BendingModel& model, const StepNumbers& step,
+                                  const Vector& solution) {
+    Vector at_rest = space.vector();
+    at_rest.update_ghost_values();
+    return measure_solution(space, model, step, solution, solution, at_rest, solution);
 }
 
 double layer_increment(const Space& space, double epsilon, const Vector& increment, const Vector& solution) {

@@ -12,9 +12,14 @@ struct SolutionMeasures {
     double step_difference;  // max |ψ − ψ_predicted| on |φ| < 0.9 [nm]
 };
 
-/// `before` and `predicted` give the motion and the difference to the predictor.
+/// `before` and `predicted` give the motion and the difference to the predictor, `rate` is ∂/∂t of the fields [1/µs].
 SolutionMeasures measure_solution(const Space& space, const BendingModel& model, const StepNumbers& step,
-                                  const Vector& before, const Vector& predicted, const Vector& solution);
+                                  const Vector& before, const Vector& predicted, const Vector& rate,
+                                  const Vector& solution);
+
+/// The same without a step: nothing moves.
+SolutionMeasures measure_solution(const Space& space, const BendingModel& model, const StepNumbers& step,
+                                  const Vector& solution);
 
 /// max |increment of ψ| on |φ| < 0.9 [nm]; collective.
 double layer_increment(const Space& space, double epsilon, const Vector& increment, const Vector& solution);

@@ -45,10 +45,7 @@ void ProductionScheme::follow(const MembraneCurve& curve) {
     if (!adapted) return;
     solver_.reinit(space_);
     // Cells are coarsened outside of the layer alone; what that changes in ∫δ c and ∫δ s is restored to round-off.
-    const auto present = [this] {
-        return measure_solution(space_, model_, numbers_, solutions_.front(), solutions_.front(), solutions_.front())
-            .integrals;
-    };
+    const auto present = [this] { return measure_solution(space_, model_, numbers_, solutions_.front()).integrals; };
     const LayerIntegrals after = present();
     for (auto& solution : solutions_) {
         if (after.molecules > 0)

@@ -90,7 +90,7 @@ Contour ProductionScheme::contour(const Vector& solution) const {
 
 StepOutcome ProductionScheme::present() {
     const Vector& solution = solutions_.front();
-    const auto measures = measure_solution(space_, model_, numbers_, solution, solution, solution);
+    const auto measures = measure_solution(space_, model_, numbers_, solution);
     integrals_ = measures.integrals;
     return {measures.diagnostics, contour(solution), {}};
 }
@@ -165,7 +165,11 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
                               guess);
     solver_.solve(space_, numbers_, history, trial_);
 
-    auto measures = measure_solution(space_, model_, numbers_, solutions_.front(), predicted, trial_);
+    Vector rate = space_.vector();
+    rate.add(bdf.rate, trial_);
+    for (std::size_t j = 0; j < bdf.past.size(); ++j) rate.add(bdf.past[j], solutions_[j]);
+    rate.update_ghost_values();
+    auto measures = measure_solution(space_, model_, numbers_, solutions_.front(), predicted, rate, trial_);
     measures.diagnostics.net_vertical_force = net_vertical_force(space_, model_, numbers_, history, trial_);
     measures.diagnostics.extracellular_inflow =
         extracellular_inflow(space_, trial_, velocity_r, velocity_z, distance,

@@ -49,7 +49,7 @@ TEST_CASE("the standard case starts like the sharp model", "[early]") {
     CHECK(observe().extracellular_volume == Approx(24.9).epsilon(0.25));  // first order in τ, O(ε)
 
     for (int step = 0; step < 9; ++step) state = advance(d, state, 5e-5);
-    const auto diagnostics = diagnose_step(d.spaces, state.flow, state, p);
+    const auto diagnostics = diagnose_step(d.spaces, state, state, 0, p);
     const auto observables = observe();
     REQUIRE(reference.time == Approx(5e-4));
     CHECK(diagnostics.bending_energy == Approx(reference.energy).epsilon(0.015));  // measured 0.9 % at ε = 1.2 nm

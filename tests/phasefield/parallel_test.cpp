@@ -22,7 +22,7 @@ struct Outcome {
 };
 
 Outcome outcome(Discretization& d, const State& state) {
-    const auto diagnostics = diagnose_step(d.spaces, state.flow, state, d.parameters);
+    const auto diagnostics = diagnose_step(d.spaces, state, state, 0, d.parameters);
     const auto observables = measure(extract_contour(contour_fields(d.spaces, state), d.parameters).curve,
                                      BendingModel(d.parameters.membrane));
     return {diagnostics.bending_energy, observables.extracellular_volume, observables.membrane_area,

@@ -212,9 +212,10 @@ TEST_CASE("a small bud conserves its molecules, loses energy and keeps profile a
         const auto& seen = outcome.diagnostics;
         const double loss = (energy - seen.bending_energy) / tau;
         const double power_before = power, inflow_before = inflow;
-        power = seen.viscous_dissipation + seen.mobility_dissipation + seen.extension_dissipation;
-        // (21) over the step, the power by the trapezoidal rule. What is left: that rule, and the molecules' transport.
-        if (count > 4) CHECK(loss == Approx(0.5 * (power + power_before)).epsilon(0.05));
+        power =
+            seen.viscous_dissipation + seen.mobility_dissipation + seen.extension_dissipation - seen.transport_power;
+        // (21) with the power of the molecules' transport over the step, by the trapezoidal rule: 0.1 % is left.
+        if (count > 4) CHECK(loss == Approx(0.5 * (power + power_before)).epsilon(0.003));
         // What flows in through the open walls is the volume that the membrane takes in, to the trapezoidal rule, and
         // the rim holds the membrane with a small force: at the speed of the bud it would take up 1.7 % of the power.
         const Observables before = shape;
