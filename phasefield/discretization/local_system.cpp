@@ -54,14 +54,11 @@ const Coefficients& LocalSystem::field(unsigned int component, Op op) const {
 }
 
 void LocalSystem::residual(unsigned int test, Op test_op, const Coefficients& weight) {
-    const auto& test_shapes = shapes(test, test_op);
     auto& out = residuals_[test];
     const double factor = scale(test_op);
-    for (std::size_t q = 0; q < weight.size(); ++q) {
-        const double w = factor * weight[q];
-        const double* row = &test_shapes[q * out.size()];
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] += w * row[i];
-    }
+    scaled_.resize(weight.size());
+    for (std::size_t q = 0; q < weight.size(); ++q) scaled_[q] = factor * weight[q];
+    add_transposed_product(scaled_.data(), shapes(test, test_op).data(), weight.size(), 1, out.size(), out.data());
 }
 
 void LocalSystem::jacobian(unsigned int test, Op test_op, unsigned int trial, Op trial_op, const Coefficients& weight) {

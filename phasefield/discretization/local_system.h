@@ -64,7 +64,7 @@ class LocalSystem {
     std::vector<std::vector<double>> blocks_;  // [test * n_components + trial][i * n_trial + k]
     std::vector<char> used_;
     CellBox box_{};
-    Coefficients product_, columns_;
+    Coefficients product_, columns_, scaled_;
     std::vector<double> coefficients_;
 };
 

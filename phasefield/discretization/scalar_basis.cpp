@@ -2,6 +2,9 @@
 
 #include <deal.II/fe/fe_q.h>
 
+#include <array>
+#include <cstddef>
+
 namespace endoflow::phasefield {
 
 ScalarBasis::ScalarBasis(unsigned int degree_, const dealii::Quadrature<2>& quadrature)
@@ -22,16 +25,26 @@ ScalarBasis::ScalarBasis(unsigned int degree_, const dealii::Quadrature<2>& quad
 
 namespace {
 
-/// out[q] = scale Σ_i shapes[q, i] coefficients[i]
+/// out[q] = scale Σ_i shapes[q, i] coefficients[i] of `count` points: as many sums at a time, for each addition waits
+/// for the one before it.
+template <std::size_t count>
+void contract_points(const double* shapes, const std::vector<double>& coefficients, std::size_t n_dofs, double scale,
+                     double* out) {
+    std::array<double, count> sum{};
+    for (std::size_t i = 0; i < n_dofs; ++i)
+        for (std::size_t q = 0; q < count; ++q) sum[q] += shapes[q * n_dofs + i] * coefficients[i];
+    for (std::size_t q = 0; q < count; ++q) out[q] = scale * sum[q];
+}
+
 void contract(const ScalarBasis& basis, const std::vector<double>& shapes, const std::vector<double>& coefficients,
               double scale, std::vector<double>& out) {
+    constexpr std::size_t together = 6;  // Gauss points of one row of scheme `production`
     out.resize(basis.n_points);
-    for (unsigned int q = 0; q < basis.n_points; ++q) {
-        const double* row = &shapes[q * basis.n_dofs];
-        double sum = 0;
-        for (unsigned int i = 0; i < basis.n_dofs; ++i) sum += row[i] * coefficients[i];
-        out[q] = scale * sum;
-    }
+    std::size_t q = 0;
+    for (; q + together <= basis.n_points; q += together)
+        contract_points<together>(&shapes[q * basis.n_dofs], coefficients, basis.n_dofs, scale, &out[q]);
+    for (; q < basis.n_points; ++q)
+        contract_points<1>(&shapes[q * basis.n_dofs], coefficients, basis.n_dofs, scale, &out[q]);
 }
 
 }  // namespace
