@@ -34,11 +34,13 @@ double largest_deviation(double turn) {
         return (r - r0) * std::sin(angle) - (z - z0) * std::cos(angle);
     };
     std::vector<Vector> past(3, space.vector());  // newest first
-    for (int k = 0; k < 3; ++k) {
+    double angle = 2 * turn;
+    for (Vector& x : past) {
         interpolate(
-            space, distance, [&](double r, double z) { return plane((2 - k) * turn, r, z); }, past[k]);
-        finish_interpolation(space, past[k]);
-        past[k].update_ghost_values();
+            space, distance, [&](double r, double z) { return plane(angle, r, z); }, x);
+        finish_interpolation(space, x);
+        x.update_ghost_values();
+        angle -= turn;
     }
     const StepNumbers numbers{
         2000, p.phase_field, p.fluid, p.molecules, membrane_weight(p.fluid, p.phase_field.viscosity_mean), 1000};
