@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "phasefield/discretization/same_cell.h"
 #include "phasefield/weak_forms/bending.h"
 #include "phasefield/weak_forms/interface_geometry.h"
 
@@ -134,9 +135,7 @@ void CellContour::add_segments(const dealii::DoFHandler<2>::active_cell_iterator
     if (!finer_beyond && (!any_positive || !any_negative)) return;
 
     box_ = cell_box(flow_cell);
-    const dealii::DoFHandler<2>::active_cell_iterator molecule_cell(&flow_cell->get_triangulation(), flow_cell->level(),
-                                                                    flow_cell->index(), &fields_.molecule_space->dofs);
-    molecule_cell->get_dof_values(*fields_.molecules, molecule_values_);
+    same_cell(flow_cell, *fields_.molecule_space)->get_dof_values(*fields_.molecules, molecule_values_);
     component_values(*fields_.flow_space, fields_.velocity_r, flow_values_, u_r_);
     component_values(*fields_.flow_space, fields_.velocity_z, flow_values_, u_z_);
     component_values(*fields_.flow_space, fields_.tension, flow_values_, lambda_);

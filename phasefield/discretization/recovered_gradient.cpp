@@ -2,6 +2,7 @@
 
 #include <deal.II/fe/fe_q.h>
 
+#include "phasefield/discretization/same_cell.h"
 #include "phasefield/discretization/scalar_basis.h"
 
 namespace endoflow::phasefield {
@@ -17,13 +18,11 @@ Vector recover_gradient(const Space& space, unsigned int component, const Vector
     ScalarField at_nodes;
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
-        const dealii::DoFHandler<2>::active_cell_iterator gradient_cell(&cell->get_triangulation(), cell->level(),
-                                                                        cell->index(), &gradient_space.dofs);
         const CellBox box = cell_box(cell);
         cell->get_dof_values(field, values);
         component_values(space, component, values, coefficients);
         evaluate(basis, box, coefficients, Derivatives::first, at_nodes);
-        gradient_cell->get_dof_indices(indices);
+        same_cell(cell, gradient_space)->get_dof_indices(indices);
         for (unsigned int node = 0; node < basis.n_points; ++node) {
             const auto r_index = indices[gradient_space.local[0][node]],
                        z_index = indices[gradient_space.local[1][node]];

@@ -7,19 +7,11 @@
 #include <cmath>
 
 #include "phasefield/discretization/component_field.h"
+#include "phasefield/discretization/same_cell.h"
 #include "phasefield/evolution/boundary_flux.h"
 #include "phasefield/surface_transport/surface_transport.h"
 
 namespace endoflow::phasefield {
-
-namespace {
-
-dealii::DoFHandler<2>::active_cell_iterator same_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell,
-                                                      const Space& space) {
-    return {&cell->get_triangulation(), cell->level(), cell->index(), &space.dofs};
-}
-
-}  // namespace
 
 LayerIntegrals integrate_layer(const Spaces& spaces, const State& state, const Parameters& parameters) {
     const dealii::QGauss<2> quadrature(quadrature_points(parameters.phase_field));
@@ -54,7 +46,6 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const State& before, const S
     ComponentField old_level_set(spaces.flow, phi, quadrature);
     ComponentField old_molecules(spaces.molecules, concentration, quadrature);
     ComponentField molecules(spaces.molecules, concentration, quadrature);
-    const double rate = tau > 0 ? 1 / tau : 0;
     dealii::Vector<double> values(spaces.flow.element.n_dofs_per_cell());
     CoupledPoints points;
     std::vector<double> sums(6, 0.0), maxima(4, 0.0);
@@ -79,7 +70,7 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const State& before, const S
             const double e = concentration_force(p.phi.value, p.moment, p.bending, epsilon).value;
             sums[4] += w * (g.value[q] * p.phi.z + e * p.c_z);
             if (tau > 0)
-                sums[5] += w * e * (rate * (c.value[q] - c_old.value[q]) + ur.value[q] * p.c_r + uz.value[q] * p.c_z);
+                sums[5] += w * e * ((c.value[q] - c_old.value[q]) / tau + ur.value[q] * p.c_r + uz.value[q] * p.c_z);
             if (std::abs(p.phi.value) > layer_edge) continue;
             const double equilibrium = (1 - p.phi.value * p.phi.value) * inverse_sqrt2 / epsilon;
             const double gradient = std::max(std::hypot(phi_old.r[q], phi_old.z[q]), 0.1 * equilibrium);

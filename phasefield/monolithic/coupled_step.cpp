@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "phasefield/discretization/recovered_gradient.h"
+#include "phasefield/discretization/same_cell.h"
 
 namespace endoflow::phasefield {
 
@@ -60,13 +61,9 @@ OldFields::OldFields(const Spaces& spaces, const Parameters& parameters, const d
 void OldFields::evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell, const State& state,
                               CoupledPoints& points) {
     const CellBox box = cell_box(cell);
-    const auto on = [&cell](const Space& space) {
-        return dealii::DoFHandler<2>::active_cell_iterator(&space.dofs.get_triangulation(), cell->level(),
-                                                           cell->index(), &space.dofs);
-    };
-    on(spaces_->flow)->get_dof_values(state.flow, flow_values_);
-    on(spaces_->molecules)->get_dof_values(state.molecules, molecule_values_);
-    on(spaces_->stretching)->get_dof_values(state.stretching, stretching_values_);
+    same_cell(cell, spaces_->flow)->get_dof_values(state.flow, flow_values_);
+    same_cell(cell, spaces_->molecules)->get_dof_values(state.molecules, molecule_values_);
+    same_cell(cell, spaces_->stretching)->get_dof_values(state.stretching, stretching_values_);
 
     const auto flow_field = [&](unsigned int basis, unsigned int component, Derivatives order, ScalarField& field) {
         component_values(spaces_->flow, component, flow_values_, coefficients_);
@@ -104,9 +101,7 @@ void OldFields::evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterator&
 
 void OldFields::evaluate_relaxation(const dealii::DoFHandler<2>::active_cell_iterator& cell, CoupledPoints& points) {
     const CellBox box = cell_box(cell);
-    const dealii::DoFHandler<2>::active_cell_iterator gradient_cell(&cell->get_triangulation(), cell->level(),
-                                                                    cell->index(), &spaces_->gradient.dofs);
-    gradient_cell->get_dof_values(*gradient_, gradient_values_);
+    same_cell(cell, spaces_->gradient)->get_dof_values(*gradient_, gradient_values_);
     component_values(spaces_->gradient, 0, gradient_values_, coefficients_);
     evaluate(*flow_bases_[2], box, coefficients_, Derivatives::first, gradient_r_);
     component_values(spaces_->gradient, 1, gradient_values_, coefficients_);

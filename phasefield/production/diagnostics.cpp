@@ -52,7 +52,7 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
                 sums[5] += w * step.fluid.normal_mobility * g.value[q] * g.value[q] * density;
             sums[6] += w * (numerics.tension_alignment * (layer.squared_well + alignment_floor) * along * along +
                             leak * (lambda.r[q] * lambda.r[q] + lambda.z[q] * lambda.z[q]));
-            const double e = b.value[q] * bending.curvature_c + 0.5 * K * K * bending.beta_c;
+            const double e = molecular_energy(b.value[q], K, bending);
             sums[7] += w * density * e * (c_rate.value[q] + ur.value[q] * c.r[q] + uz.value[q] * c.z[q]);
             if (std::abs(layer.phi) > layer_edge) continue;
             maxima[0] = std::max(maxima[0], std::abs(s.value[q] - 1));

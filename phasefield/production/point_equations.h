@@ -117,6 +117,12 @@ Stiffness<Number> stiffness_of(const Number& concentration, const BendingModel& 
             chain(c, C.first, C.second)};
 }
 
+/// ∂/∂c of the energy per area, ½ β K² with K = h + C, at a given shape [pN/nm].
+template <class Number>
+Number molecular_energy(const Number& b, const Number& K, const Stiffness<Number>& m) {
+    return b * m.curvature_c + 0.5 * K * K * m.beta_c;
+}
+
 template <class Number>
 Number inverse_root(const Number& x) {
     const double f = 1 / std::sqrt(value_of(x));
@@ -198,7 +204,7 @@ Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     row[normal_force].value += (0.5 * compliance) * w.first * slope * slope;
     row[normal_force].r += flux * b.r;
     row[normal_force].z += flux * b.z;
-    return w.kept * (b.value * m.curvature_c + 0.5 * K * K * m.beta_c);
+    return w.kept * molecular_energy(b.value, K, m);
 }
 
 template <class Number>

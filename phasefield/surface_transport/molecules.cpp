@@ -1,5 +1,6 @@
 #include <deal.II/base/quadrature_lib.h>
 
+#include "phasefield/discretization/same_cell.h"
 #include "phasefield/surface_transport/conserved_terms.h"
 #include "phasefield/surface_transport/surface_transport.h"
 #include "shared/model/double_well.h"
@@ -65,12 +66,10 @@ void advance_molecules(const Spaces& spaces, const Vector& flow_old, const Vecto
     system.start();
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
-        const dealii::DoFHandler<2>::active_cell_iterator flow_cell(&space.dofs.get_triangulation(), cell->level(),
-                                                                    cell->index(), &spaces.flow.dofs);
         const CellBox box = cell_box(cell);
         cell->get_dof_values(molecules, cell_values);
         cell->get_dof_indices(indices);
-        layer.evaluate_cell(flow_cell, box, flow_old, flow_new, cell_values, points);
+        layer.evaluate_cell(same_cell(cell, spaces.flow), box, flow_old, flow_new, cell_values, points);
         local.start(box, cell_values);
         add_molecule_terms(points, parameters.molecules, tau, local);
         local.write(cell_matrix, cell_rhs);

@@ -1,5 +1,6 @@
 #include <deal.II/base/quadrature_lib.h>
 
+#include "phasefield/discretization/same_cell.h"
 #include "phasefield/surface_transport/conserved_terms.h"
 #include "phasefield/surface_transport/surface_transport.h"
 
@@ -81,8 +82,7 @@ void advance_stretching(const Spaces& spaces, const Vector& flow_old, const Vect
     system.start();
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
-        const dealii::DoFHandler<2>::active_cell_iterator flow_cell(&space.dofs.get_triangulation(), cell->level(),
-                                                                    cell->index(), &spaces.flow.dofs);
+        const auto flow_cell = same_cell(cell, spaces.flow);
         const CellBox box = cell_box(cell);
         cell->get_dof_values(stretching, cell_values);
         cell->get_dof_indices(indices);

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "phasefield/discretization/mesh.h"
+#include "phasefield/evolution/layer_integral.h"
 #include "phasefield/production/assembly.h"
 #include "phasefield/production/fields.h"
 #include "small_case.h"
@@ -18,8 +19,6 @@ using namespace endoflow::phasefield;
 using namespace endoflow::phasefield::production;
 
 namespace {
-
-constexpr double edge = 0.9;  // |φ| below this is the layer
 
 /// Largest angle in the layer between the normal along which c is held and that of a plane which turns by `turn` [rad]
 /// in every step, known from three steps before.
@@ -52,7 +51,7 @@ double largest_deviation(double turn) {
         const CellBox box = cell_box(cell);
         for (unsigned int q = 0; q < quadrature.size(); ++q) {
             const double r = box.r0 + box.hr * quadrature.point(q)[0], z = box.z0 + box.hz * quadrature.point(q)[1];
-            if (std::abs(equilibrium_profile(plane(2 * turn, r, z), epsilon)) > edge) continue;
+            if (std::abs(equilibrium_profile(plane(2 * turn, r, z), epsilon)) > layer_edge) continue;
             const Direction n = history.points[cell->active_cell_index()][q].molecules_normal;
             largest = std::max(largest, std::abs(std::atan2(n.r, -n.z) - 3 * turn));
         }
@@ -66,7 +65,7 @@ TEST_CASE("molecules are held along the normal at the step's end", "[history]") 
     // A unit vector turning by α per step is extrapolated through three with an error of α³. Where (1 − φ²)² is no more
     // than 0.036, at |φ| = 0.9, 1e-4/0.036 of the last normal is mixed in, which lags by α.
     for (const double turn : {0.1, 0.05}) {
-        const double third_order = std::pow(turn, 3), lag = turn * 1e-4 / std::pow(1 - edge * edge, 2);
+        const double third_order = std::pow(turn, 3), lag = turn * 1e-4 / std::pow(1 - layer_edge * layer_edge, 2);
         CAPTURE(turn);
         CHECK(largest_deviation(turn) < 1.02 * (third_order + lag));
         CHECK(largest_deviation(turn) > 0.9 * third_order);

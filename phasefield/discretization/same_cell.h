@@ -1,0 +1,13 @@
+#pragma once
+
+#include "phasefield/discretization/space.h"
+
+namespace endoflow::phasefield {
+
+/// The cell as one of another space on the same mesh.
+inline dealii::DoFHandler<2>::active_cell_iterator same_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell,
+                                                             const Space& space) {
+    return {&cell->get_triangulation(), cell->level(), cell->index(), &space.dofs};
+}
+
+}  // namespace endoflow::phasefield
