@@ -10,7 +10,7 @@ State advance(Discretization& d, const State& old_state, double tau) {
         copy->update_ghost_values();  // a copy of a deal.II vector does not have them
     assemble_coupled(d.spaces, old_state, old_state.flow, d.parameters, tau, d.coupled);
     Vector increment = d.spaces.flow.vector();
-    d.coupled.solve(d.spaces.flow, increment);
+    d.coupled.solve(d.spaces.flow.constraints, increment);
     state.flow += increment;
     state.flow.update_ghost_values();
     if (d.parameters.fluid.dynamics == Dynamics::flow && d.parameters.membrane.inextensible)

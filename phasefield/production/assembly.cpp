@@ -34,7 +34,7 @@ Fields<Number> fields_from(const PointValues& values) {
 
 }  // namespace
 
-EquationPattern::EquationPattern(const Parameters& p, const BendingModel& model) : couplings(n_fields, n_fields) {
+EquationPattern::EquationPattern(const Parameters& p, const BendingModel& model) {
     // Values without special meaning: everything that can depend on something does.
     PointValues values;
     for (unsigned int f = 0; f < n_fields; ++f) values[f] = {0.31 + 0.05 * f, 0.27 + 0.03 * f, 0.41 - 0.02 * f};
@@ -44,16 +44,9 @@ EquationPattern::EquationPattern(const Parameters& p, const BendingModel& model)
     past.change_z = 0.2;
     const auto rows = point_equations(fields_from<FeatureDual>(values), 3.0, past,
                                       {1.0, p.phase_field, p.fluid, p.molecules, {}}, model);
-    couplings.fill(dealii::DoFTools::none);
-    for (unsigned int f = 0; f < n_fields; ++f) {
-        couplings(f, f) = dealii::DoFTools::always;
-        for (unsigned int o = 0; o < 3; ++o)
-            for (unsigned int column = 0; column < n_features; ++column)
-                if (feature(rows[f], o).partial[column] != 0) {
-                    entries.push_back({3 * f + o, column});
-                    couplings(f, column / 3) = dealii::DoFTools::always;
-                }
-    }
+    for (unsigned int row = 0; row < n_features; ++row)
+        for (unsigned int column = 0; column < n_features; ++column)
+            if (feature(rows[row / 3], row % 3).partial[column] != 0) entries.push_back({row, column});
 }
 
 unsigned int gauss_points(const PhaseFieldParameters& p) {
@@ -117,19 +110,18 @@ class CellEquations {
 
 /// The loop over cells: residual, and the Jacobian when Number carries derivatives.
 template <class Number>
-void assemble_cells(const Space& space, const EquationPattern& pattern, CellEquations equations, LinearSystem& system) {
+void assemble_cells(const Space& space, const EquationPattern& pattern, CellEquations equations,
+                    CondensedSystem& system) {
     constexpr bool with_jacobian = std::is_same_v<Number, FeatureDual>;
     LocalSystem& local = equations.local;
     const unsigned int n = space.element.n_dofs_per_cell(), n_points = equations.quadrature.size();
     dealii::FullMatrix<double> cell_matrix(with_jacobian ? n : 0, with_jacobian ? n : 0);
     dealii::Vector<double> cell_rhs(n);
-    std::vector<dealii::types::global_dof_index> indices(n);
     std::vector<Coefficients> residual(n_features, Coefficients(n_points)),
         jacobian(with_jacobian ? pattern.entries.size() : 0, Coefficients(n_points));
 
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
-        cell->get_dof_indices(indices);
         equations.on_cell<Number>(cell, [&](unsigned int q, double measure, const auto& rows) {
             for (unsigned int k = 0; k < n_features; ++k)
                 residual[k][q] = measure * value_of(feature(rows[k / 3], k % 3));
@@ -153,25 +145,24 @@ void assemble_cells(const Space& space, const EquationPattern& pattern, CellEqua
         }
         local.write_residual(cell_rhs);
         if constexpr (with_jacobian)
-            space.constraints.distribute_local_to_global(cell_matrix, cell_rhs, indices, system.matrix,
-                                                         system.right_hand_side);
+            system.add(cell, cell_matrix, cell_rhs);
         else
-            space.constraints.distribute_local_to_global(cell_rhs, indices, system.right_hand_side);
+            system.add(cell, cell_rhs);
     }
 }
 
 }  // namespace
 
 void assemble(const Space& space, const EquationPattern& pattern, const BendingModel& model, const StepNumbers& step,
-              const StepHistory& history, const Vector& iterate, LinearSystem& system) {
+              const StepHistory& history, const Vector& iterate, CondensedSystem& system) {
     system.start();
     assemble_cells<FeatureDual>(space, pattern, CellEquations(space, model, step, history, iterate), system);
 }
 
 void assemble_residual(const Space& space, const EquationPattern& pattern, const BendingModel& model,
                        const StepNumbers& step, const StepHistory& history, const Vector& iterate,
-                       LinearSystem& system) {
-    system.right_hand_side = 0;
+                       CondensedSystem& system) {
+    system.start_right_hand_side();
     assemble_cells<double>(space, pattern, CellEquations(space, model, step, history, iterate), system);
 }
 

@@ -4,7 +4,7 @@
 
 #include "phasefield/discretization/local_system.h"
 #include "phasefield/production/step_history.h"
-#include "phasefield/solver/linear_system.h"
+#include "phasefield/solver/condensed_system.h"
 
 namespace endoflow::phasefield::production {
 
@@ -16,17 +16,16 @@ class EquationPattern {
         unsigned int row, column;  // 3 × field + {value, ∂r, ∂z}
     };
     std::vector<Entry> entries;
-    Couplings couplings;
 };
 
 /// Jacobian and −residual of the coupled equations at `iterate` into `system`.
 void assemble(const Space& space, const EquationPattern& pattern, const BendingModel& model, const StepNumbers& step,
-              const StepHistory& history, const Vector& iterate, LinearSystem& system);
+              const StepHistory& history, const Vector& iterate, CondensedSystem& system);
 
 /// −residual alone; the Jacobian stays what it was.
 void assemble_residual(const Space& space, const EquationPattern& pattern, const BendingModel& model,
                        const StepNumbers& step, const StepHistory& history, const Vector& iterate,
-                       LinearSystem& system);
+                       CondensedSystem& system);
 
 /// The membrane's net vertical force on the fluid [pN]: it balances what the pinned rim exerts. Collective.
 double net_vertical_force(const Space& space, const BendingModel& model, const StepNumbers& step,

@@ -32,7 +32,7 @@ StepSolver::StepSolver(const Parameters& parameters, const BendingModel& model, 
       wanted_(wanted) {}
 
 void StepSolver::reinit(const Space& space) {
-    system_.reinit(space, pattern_.couplings);
+    system_.reinit(space);
     origin_ = {};
 }
 

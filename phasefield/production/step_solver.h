@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "phasefield/production/assembly.h"
-#include "phasefield/solver/linear_system.h"
+#include "phasefield/solver/condensed_system.h"
 #include "shared/output/checkpoint.h"
 
 namespace endoflow::phasefield::production {
@@ -60,7 +60,7 @@ class StepSolver {
 
     BendingModel model_;
     EquationPattern pattern_;
-    LinearSystem system_;
+    CondensedSystem system_;
     Origin origin_;
     double epsilon_, wanted_;
     std::string changes_;  // of ψ, for the error message

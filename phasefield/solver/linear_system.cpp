@@ -1,6 +1,5 @@
 #include "phasefield/solver/linear_system.h"
 
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparsity_tools.h>
 #include <petscksp.h>
 
@@ -39,14 +38,18 @@ void LinearSystem::destroy() {
 }
 
 void LinearSystem::reinit(const Space& space, const Couplings& couplings) {
-    destroy();
     dealii::DynamicSparsityPattern pattern(space.relevant);
     dealii::DoFTools::make_sparsity_pattern(space.dofs, couplings, pattern, space.constraints, false,
                                             dealii::Utilities::MPI::this_mpi_process(communicator_));
     dealii::SparsityTools::distribute_sparsity_pattern(pattern, space.owned, communicator_, space.relevant);
-    matrix.reinit(space.owned, space.owned, pattern, communicator_);
-    right_hand_side.reinit(space.owned, communicator_);
-    solution_.reinit(space.owned, communicator_);
+    reinit(space.owned, pattern);
+}
+
+void LinearSystem::reinit(const dealii::IndexSet& owned, const dealii::DynamicSparsityPattern& pattern) {
+    destroy();
+    matrix.reinit(owned, owned, pattern, communicator_);
+    right_hand_side.reinit(owned, communicator_);
+    solution_.reinit(owned, communicator_);
     renew_solver();
 }
 
@@ -96,7 +99,7 @@ void LinearSystem::require_finite_residual() const {
                           "use a smaller phase_field.max_motion or phase_field.max_step");
 }
 
-void LinearSystem::solve(const Space& space, Vector& solution) {
+void LinearSystem::solve(const dealii::AffineConstraints<double>& constraints, Vector& solution) {
     matrix.compress(dealii::VectorOperation::add);
     right_hand_side.compress(dealii::VectorOperation::add);
     require_finite_residual();
@@ -112,10 +115,10 @@ void LinearSystem::solve(const Space& space, Vector& solution) {
     if (!solved)
         throw SolverError("linear-solver", "MUMPS could not solve the " + name_ + " system",
                           "use a smaller phase_field.max_step, a larger tension_extension or more memory");
-    hand_out(space, solution);
+    hand_out(constraints, solution);
 }
 
-void LinearSystem::apply_factors(const Space& space, Vector& solution) {
+void LinearSystem::apply_factors(const dealii::AffineConstraints<double>& constraints, Vector& solution) {
     right_hand_side.compress(dealii::VectorOperation::add);
     require_finite_residual();
     PC preconditioner;
@@ -124,16 +127,16 @@ void LinearSystem::apply_factors(const Space& space, Vector& solution) {
     if (!std::isfinite(solution_.l2_norm()))
         throw SolverError("not-a-number", "the solution of the " + name_ + " system is not finite",
                           "use a smaller time.tolerance or phase_field.cell_size");
-    hand_out(space, solution);
+    hand_out(constraints, solution);
 }
 
-void LinearSystem::hand_out(const Space& space, Vector& solution) const {
+void LinearSystem::hand_out(const dealii::AffineConstraints<double>& constraints, Vector& solution) const {
     const PetscScalar* values = nullptr;
     check(VecGetArrayRead(solution_, &values), name_);
     solution.zero_out_ghost_values();
     for (unsigned int i = 0; i < solution.locally_owned_size(); ++i) solution.local_element(i) = values[i];
     check(VecRestoreArrayRead(solution_, &values), name_);
-    space.constraints.distribute(solution);
+    constraints.distribute(solution);
     solution.update_ghost_values();
 }
 

@@ -2,6 +2,7 @@
 
 #include <deal.II/base/table.h>
 #include <deal.II/dofs/dof_tools.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/petsc_sparse_matrix.h>
 #include <deal.II/lac/petsc_vector.h>
 
@@ -26,6 +27,8 @@ class LinearSystem {
 
     /// Allocates for the present mesh. `couplings(i, k)` says whether component i's rows contain component k.
     void reinit(const Space& space, const Couplings& couplings);
+    /// Allocates for unknowns of which this process owns `owned`, with the rows of `pattern`.
+    void reinit(const dealii::IndexSet& owned, const dealii::DynamicSparsityPattern& pattern);
     /// Zero matrix and right-hand side; then assemble into `matrix` and `right_hand_side`, then solve().
     void start();
     /// The next solve factorises anew (call it when the matrix has changed much, e.g. with the time step).
@@ -33,10 +36,10 @@ class LinearSystem {
     [[nodiscard]] bool has_factors() const { return factors_valid_; }
     /// Solves and satisfies the constraints; ghost values of `solution` are updated.
     /// Throws SolverError("linear-solver", …) when the factorisation fails or the result is not finite.
-    void solve(const Space& space, Vector& solution);
+    void solve(const dealii::AffineConstraints<double>& constraints, Vector& solution);
 
     /// The last factors applied to right_hand_side: a step of the chord method.
-    void apply_factors(const Space& space, Vector& solution);
+    void apply_factors(const dealii::AffineConstraints<double>& constraints, Vector& solution);
 
     dealii::PETScWrappers::MPI::SparseMatrix matrix;
     dealii::PETScWrappers::MPI::Vector right_hand_side;
@@ -49,7 +52,7 @@ class LinearSystem {
     void renew_solver();
     bool attempt();
     void require_finite_residual() const;
-    void hand_out(const Space& space, Vector& solution) const;
+    void hand_out(const dealii::AffineConstraints<double>& constraints, Vector& solution) const;
 
     MPI_Comm communicator_;
     std::string name_;

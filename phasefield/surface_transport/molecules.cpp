@@ -77,7 +77,7 @@ void advance_molecules(const Spaces& spaces, const Vector& flow_old, const Vecto
                                                      system.right_hand_side);
     }
     Vector increment = space.vector();
-    system.solve(space, increment);
+    system.solve(space.constraints, increment);
     molecules += increment;
     molecules.update_ghost_values();
 }

@@ -97,7 +97,7 @@ void advance_stretching(const Spaces& spaces, const Vector& flow_old, const Vect
                                                      system.right_hand_side);
     }
     Vector increment = space.vector();
-    system.solve(space, increment);
+    system.solve(space.constraints, increment);
     stretching += increment;
     stretching.update_ghost_values();
 }

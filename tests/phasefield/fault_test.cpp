@@ -39,7 +39,7 @@ struct Problem {
             system.right_hand_side(i) += right_hand_side;
         }
         Vector solution = space.vector();
-        system.solve(space, solution);
+        system.solve(space.constraints, solution);
         return solution.linfty_norm();
     }
 

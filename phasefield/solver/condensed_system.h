@@ -1,0 +1,69 @@
+#pragma once
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <string>
+#include <vector>
+
+#include "phasefield/solver/subdomain_system.h"
+
+namespace endoflow::phasefield {
+
+/// A linear system on a space from which the unknowns inside of the cells (with cubic elements more than two fifths of
+/// all) are eliminated cell by cell, before the rest goes to the sparse solver: static condensation. The elimination
+/// takes no communication, and small dense products are faster than the sparse solver's many small fronts.
+///
+/// With i the inner and o the other unknowns of a cell, A_oo − A_oi A_ii⁻¹ A_io and r_o − A_oi A_ii⁻¹ r_i are
+/// assembled, and then x_i = A_ii⁻¹ (r_i − A_io x_o).
+class CondensedSystem {
+  public:
+    using Cell = dealii::DoFHandler<2>::active_cell_iterator;
+
+    CondensedSystem(MPI_Comm communicator, std::string name);
+
+    /// Allocates for the present mesh.
+    void reinit(const Space& space);
+    /// Zero matrix and right-hand side: add() all own cells, then solve().
+    void start();
+    /// Zero right-hand side alone: add() all own cells, then apply_factors().
+    void start_right_hand_side() { system_.start_right_hand_side(); }
+    /// A cell's n × n matrix and n right-hand sides, in its own numbering.
+    void add(const Cell& cell, const dealii::FullMatrix<double>& matrix, const dealii::Vector<double>& right_hand_side);
+    /// The right-hand side alone.
+    void add(const Cell& cell, const dealii::Vector<double>& right_hand_side);
+
+    /// As of SubdomainSystem, with its errors, also when the block of a cell's inner unknowns is singular; ghost values
+    /// of `solution` are updated.
+    void forget_factors() { system_.forget_factors(); }
+    [[nodiscard]] bool has_factors() const { return system_.has_factors(); }
+    void solve(const Space& space, Vector& solution);
+    void apply_factors(const Space& space, Vector& solution);
+    [[nodiscard]] unsigned int factorisations() const { return system_.factorisations(); }
+
+  private:
+    using Dense = dealii::LAPACKFullMatrix<double>;
+
+    /// What is kept of a cell.
+    struct Elimination {
+        std::vector<SubdomainSystem::Index> unknowns;  // in the space
+        std::vector<unsigned int> fixed;               // of the inner ones, by constraints
+        Dense inverse, to_inner, from_inner;           // A_ii⁻¹, −A_ii⁻¹ A_io, −A_oi A_ii⁻¹
+        dealii::Vector<double> residual;               // r_i
+    };
+
+    void eliminate(const dealii::FullMatrix<double>& matrix, Elimination& cell);
+    void condense(const dealii::Vector<double>& right_hand_side, Elimination& cell);
+    void expand(const Space& space, Vector& solution);
+
+    std::string name_;
+    SubdomainSystem system_;
+    unsigned int n_outer_ = 0, n_inner_ = 0;  // unknowns of a cell; the outer ones come first
+    std::vector<Elimination> cells_;          // own ones
+    std::vector<std::size_t> positions_;      // in cells_, by the active cell's index
+    bool undetermined_ = false;               // inner unknowns of an own cell
+    Dense inner_rows_, A_oi_, S_;
+    dealii::FullMatrix<double> outer_matrix_;
+    dealii::Vector<double> outer_residual_, inner_solution_;
+};
+
+}  // namespace endoflow::phasefield

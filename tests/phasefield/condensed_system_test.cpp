@@ -1,0 +1,190 @@
+// Eliminating the unknowns inside of the cells does not change the solution of a linear system.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "phasefield/discretization/mesh.h"
+#include "phasefield/solver/condensed_system.h"
+#include "shared/support/error.h"
+#include "small_case.h"
+
+using namespace endoflow;
+using namespace endoflow::phasefield;
+
+namespace {
+
+/// A system without symmetry, its rows of sizes as different as those of fields that only live on the membrane, on a
+/// mesh with cells of three sizes: solved whole and condensed.
+struct Problem {
+    Problem(MPI_Comm communicator_, bool second_component)
+        : communicator(communicator_),
+          mesh(coarse_mesh(small_case(), communicator)),
+          space(*mesh, {3, 2}),
+          whole(communicator, "whole"),
+          condensed(communicator, "condensed") {
+        for (const auto& cell : mesh->active_cell_iterators())
+            if (cell->is_locally_owned() && cell->center()[0] < 12 && std::abs(cell->center()[1] - 20) < 8)
+                cell->set_refine_flag();
+        mesh->execute_coarsening_and_refinement();
+        space.distribute();
+        for_boundary_unknowns(space, [&](dealii::types::boundary_id boundary, unsigned int component,
+                                         dealii::types::global_dof_index index, double /*z*/) {
+            if (boundary == axis && component == 0 && !space.constraints.is_constrained(index))
+                space.constraints.add_line(index);
+        });
+        if (!second_component) switch_off(space, {1});
+        space.constraints.close();
+        Couplings full(2, 2);
+        full.fill(dealii::DoFTools::always);
+        whole.reinit(space, full);
+        condensed.reinit(space);
+    }
+
+    [[nodiscard]] dealii::FullMatrix<double> cell_matrix(const CondensedSystem::Cell& cell) const {
+        const unsigned int n = space.element.n_dofs_per_cell();
+        dealii::FullMatrix<double> matrix(n, n);
+        const auto center = cell->center();
+        for (unsigned int i = 0; i < n; ++i) {
+            const double size = std::pow(10.0, i % 5) * cell->measure();
+            for (unsigned int k = 0; k < n; ++k)
+                matrix(i, k) = size * (std::cos(1.7 * i - 0.9 * k + center[0] + 3 * center[1]) + (i == k ? 8 : 0));
+        }
+        return matrix;
+    }
+
+    /// `shift` makes it another right-hand side.
+    [[nodiscard]] dealii::Vector<double> cell_right_hand_side(const CondensedSystem::Cell& cell, double shift) const {
+        dealii::Vector<double> out(space.element.n_dofs_per_cell());
+        for (unsigned int i = 0; i < out.size(); ++i) out(i) = std::sin(shift + 0.6 * i + 2 * cell->center()[1]);
+        return out;
+    }
+
+    template <class Visit>
+    void on_own_cells(const Visit& visit) {
+        std::vector<dealii::types::global_dof_index> indices(space.element.n_dofs_per_cell());
+        for (const auto& cell : space.dofs.active_cell_iterators()) {
+            if (!cell->is_locally_owned()) continue;
+            cell->get_dof_indices(indices);
+            visit(cell, indices);
+        }
+    }
+
+    /// The largest difference of the two solutions, as part of the largest value. Collective.
+    double difference() {
+        Vector expected = space.vector(), found = space.vector();
+        whole.start();
+        condensed.start();
+        on_own_cells([&](const auto& cell, const auto& indices) {
+            const auto matrix = cell_matrix(cell);
+            const auto rhs = cell_right_hand_side(cell, 0);
+            space.constraints.distribute_local_to_global(matrix, rhs, indices, whole.matrix, whole.right_hand_side);
+            condensed.add(cell, matrix, rhs);
+        });
+        whole.solve(space.constraints, expected);
+        condensed.solve(space, found);
+        return distance(expected, found);
+    }
+
+    /// The same for another right-hand side with the same factors.
+    double difference_with_old_factors() {
+        Vector expected = space.vector(), found = space.vector();
+        whole.right_hand_side = 0;
+        condensed.start_right_hand_side();
+        on_own_cells([&](const auto& cell, const auto& indices) {
+            const auto rhs = cell_right_hand_side(cell, 0.4);
+            space.constraints.distribute_local_to_global(rhs, indices, whole.right_hand_side);
+            condensed.add(cell, rhs);
+        });
+        whole.apply_factors(space.constraints, expected);
+        condensed.apply_factors(space, found);
+        return distance(expected, found);
+    }
+
+    static double distance(const Vector& expected, Vector& found) {
+        const double size = expected.linfty_norm();
+        found -= expected;
+        return found.linfty_norm() / size;
+    }
+
+    MPI_Comm communicator;
+    std::unique_ptr<Mesh> mesh;
+    Space space;
+    LinearSystem whole;
+    CondensedSystem condensed;
+};
+
+/// The name of the error, if there is one, when all cells have this matrix times their own.
+std::string failure(Problem& problem, double factor) {
+    try {
+        problem.condensed.start();
+        problem.on_own_cells([&](const auto& cell, const auto& /*indices*/) {
+            auto matrix = problem.cell_matrix(cell);
+            matrix *= factor;
+            problem.condensed.add(cell, matrix, problem.cell_right_hand_side(cell, 0));
+        });
+        Vector solution = problem.space.vector();
+        problem.condensed.solve(problem.space, solution);
+    } catch (const SolverError& error) {
+        return error.name();
+    }
+    return "none";
+}
+
+/// The own part of the solution of a system between processes. Each has numbers rank … rank + 3 and a matrix of its
+/// own.
+dealii::Vector<double> shared_solution(InterfaceSystem& system) {
+    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD),
+                       processes = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    const std::vector<InterfaceSystem::Index> numbers{rank, rank + 1, rank + 2, rank + 3};
+    dealii::IndexSet owned(processes + 3);
+    owned.add_range(rank, rank + 1);
+    if (rank + 1 == processes) owned.add_range(rank + 1, rank + 4);
+    system.reinit(owned, numbers);
+    dealii::FullMatrix<double> matrix(4, 4);
+    dealii::Vector<double> values(4);
+    for (unsigned int i = 0; i < 4; ++i) {
+        values(i) = 1 + rank + 0.5 * i;
+        for (unsigned int k = 0; k < 4; ++k) matrix(i, k) = std::cos(1.3 * i - 0.7 * k + rank) + (i == k ? 5 : 0);
+    }
+    REQUIRE(system.factorise(matrix));
+    system.solve(values);  // with new factors, then with old ones
+    system.solve(values);
+    return values;
+}
+
+// Both are direct solvers, so that they differ by round-off times the condition number, some 1e4.
+constexpr double round_off = 1e-11;
+
+}  // namespace
+
+TEST_CASE("a condensed system has the same solution", "[condensation]") {
+    for (const bool second_component : {true, false}) {
+        CAPTURE(second_component);
+        Problem problem(MPI_COMM_SELF, second_component);
+        REQUIRE(problem.space.hanging_nodes.n_constraints() > 0);
+        CHECK(problem.difference() < round_off);
+        CHECK(problem.difference_with_old_factors() < round_off);
+    }
+}
+
+TEST_CASE("a condensed system has the same solution on two processes", "[condensation][mpi]") {
+    Problem problem(MPI_COMM_WORLD, true);
+    CHECK(problem.difference() < round_off);
+    CHECK(problem.difference_with_old_factors() < round_off);
+}
+
+TEST_CASE("a condensed system survives singular and not finite matrices", "[condensation]") {
+    Problem problem(MPI_COMM_SELF, true);
+    CHECK(failure(problem, 0) == "linear-solver");
+    CHECK(failure(problem, std::nan("")) == "not-a-number");
+    CHECK(failure(problem, INFINITY) == "not-a-number");
+    CHECK(problem.difference() < round_off);  // as if nothing had happened
+}
+
+TEST_CASE("few and many unknowns between processes have the same solution", "[condensation][mpi]") {
+    InterfaceSystem few(MPI_COMM_WORLD, "few"), many(MPI_COMM_WORLD, "many", 0);
+    const auto expected = shared_solution(few);
+    auto found = shared_solution(many);
+    found -= expected;
+    CHECK(found.linfty_norm() < 1e-13 * expected.linfty_norm());
+}
