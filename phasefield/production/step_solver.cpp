@@ -13,7 +13,7 @@ namespace endoflow::phasefield::production {
 
 namespace {
 
-constexpr int most_iterations = 16;       // with the same factors: about what new ones cost
+constexpr int most_iterations = 16;       // with the same factors: new ones cost more, but help later steps, too
 constexpr int seen_enough = 3;            // iterations after which the number needed is foreseen
 constexpr double farthest = 0.25;         // from where the factors were made, in units of ε: beyond they do not serve
 constexpr int most_factorisations = 4;    // in one step

@@ -9,7 +9,7 @@
 
 namespace endoflow::phasefield::production {
 
-/// Newton's method for the coupled equations of a step. A factorisation costs as much as fifteen to twenty-five
+/// Newton's method for the coupled equations of a step. A factorisation costs as much as twenty-five to thirty
 /// iterations with old factors, so those of an earlier step are used, with Anderson's acceleration, for as long as they
 /// serve.
 class StepSolver {

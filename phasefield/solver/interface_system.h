@@ -16,7 +16,7 @@ class InterfaceSystem {
   public:
     using Index = dealii::types::global_dof_index;
 
-    /// Up to `most_dense` unknowns are few; 2500 take 0.3 s of one core per factorisation.
+    /// Up to `most_dense` unknowns are few; the factors of 2500 take 10¹⁰ operations.
     InterfaceSystem(MPI_Comm communicator, std::string name, Index most_dense = 2500);
 
     /// `numbers`: which of all shared unknowns this process has. It numbers those in `owned`, a range.
