@@ -81,14 +81,15 @@ MumpsFactors::~MumpsFactors() = default;
 
 void MumpsFactors::scale() {
     const std::size_t eliminated = size_ - kept_;
+    const auto position = [](int number) { return static_cast<std::size_t>(number - 1); };
     const auto invert_largest = [&](const std::vector<int>& indices, std::vector<double>& scale) {
         std::fill(scale.begin(), scale.end(), 0);
         for (std::size_t k = 0; k < values_.size(); ++k) {
-            double& largest = scale[indices[k] - 1];
+            double& largest = scale[position(indices[k])];
             largest = std::max(largest, std::abs(values_[k]));
         }
         for (std::size_t i = 0; i < size_; ++i) scale[i] = i < eliminated && scale[i] > 0 ? 1 / scale[i] : 1;
-        for (std::size_t k = 0; k < values_.size(); ++k) values_[k] *= scale[indices[k] - 1];
+        for (std::size_t k = 0; k < values_.size(); ++k) values_[k] *= scale[position(indices[k])];
     };
     invert_largest(rows_, row_scale_);
     invert_largest(columns_, column_scale_);
