@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "phasefield/discretization/same_cell.h"
 #include "shared/support/error.h"
 
 namespace endoflow::phasefield {
@@ -47,7 +48,7 @@ void CondensedSystem::reinit(const Space& space) {
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (cell->is_artificial()) continue;
         cell->get_dof_indices(indices);
-        Cell(&mesh, cell->level(), cell->index(), &dofs)->get_dof_indices(outer);
+        same_cell(cell, dofs)->get_dof_indices(outer);
         for (unsigned int i = 0; i < n_outer_; ++i)
             if (space.constraints.is_constrained(indices[i]) && !constraints.is_constrained(outer[i]))
                 constraints.add_line(outer[i]);

@@ -33,7 +33,6 @@ bool InterfaceSystem::factorise(const dealii::FullMatrix<double>& own) {
         sparse_.start();
         sparse_.forget_factors();
         if (!numbers_.empty()) sparse_.matrix.add(numbers_, own);
-        sparse_factors_ = false;
         return true;
     }
     dense_.reinit(size_);
@@ -60,11 +59,10 @@ void InterfaceSystem::solve(dealii::Vector<double>& own) {
     }
     sparse_.right_hand_side = 0;
     if (!numbers_.empty()) sparse_.right_hand_side.add(numbers_, own);
-    if (sparse_factors_)
+    if (sparse_.has_factors())
         sparse_.apply_factors(no_constraints_, sparse_solution_);
     else
         sparse_.solve(no_constraints_, sparse_solution_);
-    sparse_factors_ = true;
     for (unsigned int i = 0; i < numbers_.size(); ++i) own(i) = sparse_solution_(numbers_[i]);
 }
 

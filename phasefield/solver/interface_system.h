@@ -37,7 +37,6 @@ class InterfaceSystem {
     Dense dense_;
     dealii::Vector<double> dense_values_;
     LinearSystem sparse_;
-    bool sparse_factors_ = false;
     dealii::AffineConstraints<double> no_constraints_;
     Vector sparse_solution_;
 };

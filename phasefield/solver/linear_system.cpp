@@ -80,14 +80,12 @@ void LinearSystem::start() {
 
 bool LinearSystem::attempt() {
     check(KSPSetReusePreconditioner(solver_, factors_valid_ ? PETSC_TRUE : PETSC_FALSE), name_);
-    if (!factors_valid_) ++factorisations_;
     const PetscErrorCode code = KSPSolve(solver_, right_hand_side, solution_);
     if (code != 0) return false;
     KSPConvergedReason reason;
     PetscInt iterations = 0;
     check(KSPGetConvergedReason(solver_, &reason), name_);
     check(KSPGetIterationNumber(solver_, &iterations), name_);
-    iterations_ += static_cast<unsigned int>(iterations);
     if (reason < 0 || !std::isfinite(solution_.l2_norm())) return false;
     factors_valid_ = iterations <= worthwhile_iterations;
     return true;

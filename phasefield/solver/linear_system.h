@@ -44,9 +44,6 @@ class LinearSystem {
     dealii::PETScWrappers::MPI::SparseMatrix matrix;
     dealii::PETScWrappers::MPI::Vector right_hand_side;
 
-    [[nodiscard]] unsigned int factorisations() const { return factorisations_; }
-    [[nodiscard]] unsigned int iterations() const { return iterations_; }
-
   private:
     void destroy();
     void renew_solver();
@@ -59,7 +56,6 @@ class LinearSystem {
     dealii::PETScWrappers::MPI::Vector solution_;
     KSP solver_ = nullptr;
     bool factors_valid_ = false;
-    unsigned int factorisations_ = 0, iterations_ = 0;
 };
 
 }  // namespace endoflow::phasefield
