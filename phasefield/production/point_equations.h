@@ -37,7 +37,7 @@ struct PointHistory {
     double velocity_r = 0, velocity_z = 0;
     Direction normal;                   // n = ∇ψ/|∇ψ|
     Direction molecules_normal;         // the same with the error of BDF, for c
-    double slope = 0;                   // n·∇Σ_j a_j ψ(t_j)
+    double slope_r = 0, slope_z = 0;    // ∇Σ_j a_j ψ(t_j)
     double change_r = 0, change_z = 0;  // n·∇∇ψ [1/nm]: 0 where ψ is a distance
 };
 
@@ -58,9 +58,9 @@ inline constexpr double moment_floor = 4e-5;     // [nm] continues b smoothly wh
 inline constexpr double force_alignment = 20;    // [ε²] keeps G constant along the normal
 inline constexpr double moment_alignment = 20;   // [ε²] the same for b
 inline constexpr double step_alignment = 20;     // [ε² per step] the same for c and s, and of ∂ψ/∂t
-inline constexpr double profile_floor = 1e-5;    // the same for the flux that keeps |∇ψ| = 1
-inline constexpr double alignment_floor = 1e-4;  // the same for λ
-inline constexpr double far_smoothing = 1.02;    // 1/|∇ψ| far from the layer, where ψ solves a Poisson equation
+inline constexpr double alignment_floor = 1e-4;  // [of (1 − φ²)²] the same for λ and q
+inline constexpr double far_part = 1e-7;         // of M, with which ψ is continued outside of the layer
+inline constexpr double far_smoothing = 1.02;    // of Δψ there
 inline constexpr double layer_pressure_alignment = 30;     // [nm³/(pN µs)] keeps q constant along the normal
 inline constexpr double pressure_leak = 0.01;              // [nm/(pN µs)] ∇·u per q: decides between p and δ q
 inline constexpr double least_normal_diffusivity = 1.1e5;  // [nm⁵/µs/ε³] of c: 6.4e4 nm²/µs at ε = 1.2 nm
@@ -84,12 +84,29 @@ LayerProfile<Number> layer_profile(const Number& psi, double epsilon) {
     return {phi, (inverse_sqrt2 / epsilon) * well, delta, (-2 / (inverse_sqrt2 * epsilon)) * phi * delta, squared};
 }
 
-/// δ_m [1/nm] with its tails cut off: four ε from the membrane the alignment along the normals, weighted by δ, shall
+/// δ [1/nm] with its tails cut off: four ε from the membrane the alignment along the normals, weighted by δ, shall
 /// decide alone, for there normals may cross, and a step multiplies δ by up to exp(2√2 motion/ε).
 template <class Number>
+Number cut_density(const LayerProfile<Number>& layer) {
+    return layer.delta * layer.squared_well / (layer.squared_well + weight_cut);
+}
+
+/// δ_m [1/nm] with its tails cut off.
+template <class Number>
 Number membrane_density(const LayerProfile<Number>& layer, const MembraneWeight& w) {
-    const Number kept = layer.squared_well / (layer.squared_well + weight_cut);
-    return layer.delta * kept * (w.constant + w.square * (layer.phi * layer.phi));
+    return cut_density(layer) * (w.constant + w.square * (layer.phi * layer.phi));
+}
+
+/// φ⁸, one outside of the layer, and its derivative with respect to ψ [1/nm].
+template <class Number>
+struct Outside {
+    Number value, slope;
+};
+
+template <class Number>
+Outside<Number> outside_of(const LayerProfile<Number>& layer) {
+    const Number phi2 = layer.phi * layer.phi, phi4 = phi2 * phi2;
+    return {phi4 * phi4, 8.0 * phi4 * phi2 * layer.phi * layer.phi_slope};
 }
 
 /// β, C and their derivatives with respect to c as functions of c.
@@ -156,12 +173,17 @@ EnergyWeight<Number> energy_weight(const LayerProfile<Number>& layer, double eps
     return {energy_norm * d * part, energy_norm * g1 * d1, energy_norm * (g2 * d1 * d1 + g1 * d2), part};
 }
 
+/// The part of g along the normal, (n n + (1 − |n|²))·g: all of it where normals cross and n vanishes.
+template <class Number>
+Number normal_part(const Direction& n, double n_own, const Number& own, double n_other, const Number& other) {
+    return (1 - n.r * n.r - n.z * n.z + n_own * n_own) * own + (n_own * n_other) * other;
+}
+
 /// D_n ∇·(δ n n·∇y): keeps y constant along the normal, a predicted one, so that the term is linear.
 template <class Number>
-void add_alignment(const AtPoint<Number>& y, const Direction& normal, const Number& diffusivity, AtPoint<Number>& row) {
-    const Number flux = diffusivity * (normal.r * y.r + normal.z * y.z);
-    row.r += flux * normal.r;
-    row.z += flux * normal.z;
+void add_alignment(const AtPoint<Number>& y, const Direction& n, const Number& diffusivity, AtPoint<Number>& row) {
+    row.r += diffusivity * normal_part(n, n.r, y.r, n.z, y.z);
+    row.z += diffusivity * normal_part(n, n.z, y.z, n.r, y.r);
 }
 
 /// D of G [nm²] times δ.
@@ -280,23 +302,40 @@ inline double within_a_step(double diffusivity, const StepNumbers& step) {
 
 /// (35): δ_m ( ∂ψ/∂t + u·∇ψ ) = −(mobility) δ_m G. |∇ψ| = 1 is kept by fluxes along the normal. They conserve ∫H, so
 /// they do not move the membrane. 20 ε² δ n·∇(∂ψ/∂t) vanishes for distance functions however they move and outweighs
-/// δ_m where that is negative; M ε δ (n·∇ψ − 1) restores what is lost. Far from the layer ψ solves ∇·(a ∇ψ − n) = 0
-/// with the last normals n, a a little above 1: normals may cross there. Divided by max δ.
+/// δ_m where that is negative; M ε δ (n·∇ψ − 1) restores what is lost. Divided by max δ.
+///
+/// A small part of the row continues ψ outside of the layer, n the last normal and g = φ⁸:
+///
+///   1.02 Δψ − (1 − g) ∇·n − g φ (n·∇ψ − 1)/ε = 0.
+///
+/// In the layer that is a Poisson equation which any ψ with these normals solves. Outside it is a linearisation of the
+/// viscous eikonal equation |∇ψ| = 1 + 1.02 ε φ Δψ, which has one solution, the distance, rounded within ε of where
+/// normals cross. The former alone would keep whatever valleys ψ once had there and carry them into a neck. A hundred
+/// times that part would disturb the neck itself, where the layers meet.
 template <class Number>
 void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past,
                 const StepNumbers& step, Fields<Number>& row) {
     const auto& psi = x[distance];
+    const auto& n = past.normal;
     const double epsilon = step.numerics.epsilon, length = epsilon / (0.75 * inverse_sqrt2);  // 1/max δ
     const Number weight = length * p.density;
-    const Number slope = past.normal.r * psi.r + past.normal.z * psi.z, changing = step.rate * slope + past.slope;
-    const Number flux = p.layer.squared_well * ((step_alignment * epsilon * epsilon) * changing +
-                                                (step.profile_relaxation * epsilon) * (slope - 1.0));
-    const double far = step.numerics.profile_relaxation * epsilon * profile_floor;
     Number rate =
         weight * (step.rate * psi.value + past.distance + x[velocity_r].value * psi.r + x[velocity_z].value * psi.z);
     if (step.fluid.dynamics == Dynamics::geometric) rate += step.fluid.normal_mobility * weight * x[normal_force].value;
-    row[distance] = {rate, flux * past.normal.r + far * (far_smoothing * psi.r - past.normal.r),
-                     flux * past.normal.z + far * (far_smoothing * psi.z - past.normal.z)};
+
+    const Number excess = n.r * psi.r + n.z * psi.z - 1.0;
+    const Number changing_r = step.rate * psi.r + past.slope_r, changing_z = step.rate * psi.z + past.slope_z;
+    const Number aligning = (step_alignment * epsilon * epsilon) * p.layer.squared_well,
+                 restoring = (step.profile_relaxation * epsilon) * p.layer.squared_well * excess;
+    const double far = step.numerics.profile_relaxation * epsilon * far_part;
+    const auto outside = outside_of(p.layer);
+    const Number inside = far * (1.0 - outside.value);
+    row[distance] = {
+        rate + far * ((1 / epsilon) * outside.value * p.layer.phi * excess + outside.slope * (excess + 1.0)),
+        aligning * normal_part(n, n.r, changing_r, n.z, changing_z) + (restoring - inside) * n.r +
+            (far * far_smoothing) * psi.r,
+        aligning * normal_part(n, n.z, changing_z, n.r, changing_r) + (restoring - inside) * n.z +
+            (far * far_smoothing) * psi.z};
 }
 
 /// ∂(δ_m y)/∂t + ∇·(δ_m y v), v the fluid's velocity along the membrane and the level sets' own velocity across it. The
@@ -321,25 +360,26 @@ inline double normal_diffusivity_of_molecules(const StepNumbers& step) {
     return within_a_step(std::max(step.molecules.normal_diffusivity, least), step);
 }
 
-/// (40), (41), or (39), or (14): δ_m c is conserved.
+/// (40), (41), or (39), or (14): δ_m c is conserved. The diffusion along the membrane ends where δ_m does: on the
+/// coarse cells beyond, the double well would have several solutions where the layers of bud and plane meet.
 template <class Number>
 void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past,
                    const StepNumbers& step, Fields<Number>& row) {
     const auto &c = x[molecule_density], &mu = x[molecule_potential];
     add_transport(c.value, x, p, past, past.molecules, step, row[molecule_density]);
-    const Number phi2 = p.layer.phi * p.layer.phi;
+    const Number phi2 = p.layer.phi * p.layer.phi, weight = cut_density(p.layer);
     add_alignment(c, past.molecules_normal, normal_diffusivity_of_molecules(step) * p.surface, row[molecule_density]);
     add_diffusion(c, molecule_leak * (phi2 * phi2), row[molecule_density]);
     row[molecule_potential].value = p.surface * mu.value;
     if (step.molecules.transport == Transport::cahn_hilliard) {
         const double width = step.molecules.interface_width;
         const auto well = double_well(value_of(c.value));
-        add_diffusion(mu, step.molecules.mobility * p.layer.delta, row[molecule_density]);
+        add_diffusion(mu, step.molecules.mobility * weight, row[molecule_density]);
         row[molecule_potential].value =
             p.surface * mu.value - (1 / width) * p.layer.delta * chain(c.value, well.first, well.second);
         add_diffusion(c, -width * p.layer.delta, row[molecule_potential]);
     } else if (step.molecules.transport == Transport::fickian) {
-        add_diffusion(c, step.molecules.diffusivity * p.layer.delta, row[molecule_density]);
+        add_diffusion(c, step.molecules.diffusivity * weight, row[molecule_density]);
     }
 }
 

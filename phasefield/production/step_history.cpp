@@ -35,8 +35,6 @@ class HistoryFields {
 
     void evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell, const CellBox& box,
                        std::vector<PointHistory>& points) {
-        slope_r_.assign(points.size(), 0);
-        slope_z_.assign(points.size(), 0);
         ahead_r_.assign(points.size(), 0);
         ahead_z_.assign(points.size(), 0);
         for (std::size_t j = 0; j < history_->weights.size(); ++j) {
@@ -57,7 +55,6 @@ class HistoryFields {
             const Direction n = normal(predicted_.r[q], predicted_.z[q], last_normal_below);
             points[q].normal = n;
             points[q].molecules_normal = normal(ahead_r_[q], ahead_z_[q], last_molecules_normal_below);
-            points[q].slope = n.r * slope_r_[q] + n.z * slope_z_[q];
             points[q].change_r = n.r * predicted_.rr[q] + n.z * predicted_.rz[q];
             points[q].change_z = n.r * predicted_.rz[q] + n.z * predicted_.zz[q];
         }
@@ -79,8 +76,8 @@ class HistoryFields {
             const auto layer = layer_profile(psi_.value[q], step_->numerics.epsilon);
             const double density = membrane_density(layer, step_->weight);
             points[q].distance += weight * psi_.value[q];
-            slope_r_[q] += weight * psi_.r[q];
-            slope_z_[q] += weight * psi_.z[q];
+            points[q].slope_r += weight * psi_.r[q];
+            points[q].slope_z += weight * psi_.z[q];
             ahead_r_[q] += ahead * psi_.r[q];
             ahead_z_[q] += ahead * psi_.z[q];
             points[q].molecules += weight * density * c_.value[q];
@@ -95,7 +92,7 @@ class HistoryFields {
     const StepHistory* history_;
     std::map<unsigned int, ScalarBasis> bases_;
     dealii::Vector<double> values_;
-    std::vector<double> coefficients_, slope_r_, slope_z_, ahead_r_, ahead_z_;
+    std::vector<double> coefficients_, ahead_r_, ahead_z_;
     ScalarField psi_, predicted_, c_, s_, u_r_, u_z_;
 };
 

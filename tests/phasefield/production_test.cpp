@@ -73,10 +73,11 @@ TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
             p.phase_field.profile_relaxation = p.molecules.mobility = p.phase_field.stretching_alignment = 10;
             const BendingModel model(p.membrane);
             PointHistory past;
-            past.normal = past.molecules_normal = {0.6, 0.8};
+            past.normal = past.molecules_normal = {0.5, 0.6};
             past.change_r = 0.3;
             past.change_z = -0.2;
-            past.slope = 0.1;
+            past.slope_r = 0.1;
+            past.slope_z = 0.05;
             const auto x = some_point();
             Fields<Dual<n_features>> seeded;
             for (std::size_t k = 0; k < n_features; ++k) {
