@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "phasefield/discretization/same_cell.h"
@@ -54,6 +55,7 @@ ContourPoint CellContour::point(double x, double y) const {
         p.rz += phi_[j] * hessian[0][1] / (box_.hr * box_.hz);
         p.zz += phi_[j] * hessian[1][1] / (box_.hz * box_.hz);
     }
+    const double gradient = std::max(std::hypot(p.r, p.z), std::numeric_limits<double>::min());
     const double r = box_.r0 + x * box_.hr, c = value_at(molecule_element_, c_, unit);
     return {r,
             box_.z0 + y * box_.hz,
@@ -61,7 +63,9 @@ ContourPoint CellContour::point(double x, double y) const {
             fields_.tension_factor * value_at(tension_element_, lambda_, unit),
             -normal_divergence(p, r, 0),
             value_at(velocity_element_, u_r_, unit),
-            value_at(velocity_element_, u_z_, unit)};
+            value_at(velocity_element_, u_z_, unit),
+            p.r / gradient,
+            p.z / gradient};
 }
 
 ContourPoint CellContour::root(Corner a, Corner b) const {

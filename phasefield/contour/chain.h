@@ -5,8 +5,8 @@
 
 namespace endoflow::phasefield {
 
-/// r, z, c, λ, κ, u_r, u_z at a point of the contour.
-using ContourPoint = std::array<double, 7>;
+/// r, z, c, λ, κ, u_r, u_z and the components of the level set's unit normal at a point of the contour.
+using ContourPoint = std::array<double, 9>;
 
 /// Two points joined inside one cell.
 using ContourSegment = std::array<ContourPoint, 2>;

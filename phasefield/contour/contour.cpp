@@ -41,13 +41,16 @@ MembraneCurve to_curve(const ContourChain& chain) {
 
 }  // namespace
 
-Contour extract_contour(const ContourFields& fields, const Parameters& p) {
+std::vector<ContourSegment> contour_segments(const ContourFields& fields) {
     CellContour cell_contour(fields, subdivisions);
     std::vector<ContourSegment> segments;
     for (const auto& cell : fields.flow_space->dofs.active_cell_iterators())
         if (cell->is_locally_owned()) cell_contour.add_segments(cell, segments);
-    segments = all_gather(segments, fields.flow_space->dofs.get_communicator());
+    return all_gather(segments, fields.flow_space->dofs.get_communicator());
+}
 
+Contour extract_contour(const ContourFields& fields, const Parameters& p) {
+    const auto segments = contour_segments(fields);
     const double R = p.domain.radius, tolerance = 1e-7 * p.phase_field.cell_size;
     auto chains = join_segments(segments, tolerance);
     const auto on_axis = [&](const ContourPoint& point) { return std::abs(point[0]) < tolerance; };

@@ -13,6 +13,9 @@ struct Contour {
     unsigned int components;  // 1, or more when the membrane has changed its topology
 };
 
+/// The zero level set in pieces, all of them on all processes; collective.
+std::vector<ContourSegment> contour_segments(const ContourFields& fields);
+
 /// Collective; the result is the same on all processes. Throws SolverError("membrane-lost", …) when φ = 0 does not
 /// connect the rim with the axis.
 Contour extract_contour(const ContourFields& fields, const Parameters& parameters);

@@ -5,7 +5,7 @@ namespace endoflow::phasefield {
 std::vector<std::string> extra_history_columns() {
     return {"viscous_dissipation_pN_nm_per_us",
             "mobility_dissipation_pN_nm_per_us",
-            "extension_dissipation_pN_nm_per_us",
+            "tension_power_pN_nm_per_us",
             "transport_power_pN_nm_per_us",
             "energy_law_residual_pN_nm_per_us",
             "thickness_error_max",
@@ -35,7 +35,7 @@ HistoryRow make_history_row(const StepRecord& r) {
     row.volume_extracellular_nm3 = r.observables.extracellular_volume;
     row.extra = {r.diagnostics.viscous_dissipation,
                  r.diagnostics.mobility_dissipation,
-                 r.diagnostics.extension_dissipation,
+                 r.diagnostics.tension_power,
                  r.diagnostics.transport_power,
                  r.energy_law_residual,
                  r.diagnostics.thickness_error_max,

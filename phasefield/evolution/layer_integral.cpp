@@ -39,7 +39,7 @@ LayerIntegrals integrate_layer(const Spaces& spaces, const State& state, const P
 StepDiagnostics diagnose_step(const Spaces& spaces, const State& before, const State& state, double tau,
                               const Parameters& parameters) {
     const auto& numerics = parameters.phase_field;
-    const double epsilon = numerics.epsilon, xi = numerics.tension_extension * epsilon * epsilon;
+    const double epsilon = numerics.epsilon;
     const dealii::QGauss<2> quadrature(quadrature_points(numerics));
     OldFields fields(spaces, parameters, quadrature);
     LocalSystem now(spaces.flow, quadrature);
@@ -66,7 +66,8 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const State& before, const S
             sums[0] += w * energy_density(p.moment, p.bending.stiffness, epsilon);
             sums[1] += w * p.viscosity * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
             sums[2] += w * numerics.mobility * g.value[q] * g.value[q];
-            sums[3] += w * xi * p.phi.value * p.phi.value * (lambda.r[q] * lambda.r[q] + lambda.z[q] * lambda.z[q]);
+            sums[3] += w * lambda.value[q] * p.layer.gradient *
+                       surface_divergence(p.layer.normal_r, p.layer.normal_z, ur.r[q], hoop, uz.z[q], shear);
             const double e = concentration_force(p.phi.value, p.moment, p.bending, epsilon).value;
             sums[4] += w * (g.value[q] * p.phi.z + e * p.c_z);
             if (tau > 0)

@@ -17,10 +17,10 @@ LayerIntegrals integrate_layer(const Spaces& spaces, const State& state, const P
 
 /// What one time step did; collective.
 struct StepDiagnostics {
-    double bending_energy;         // (D) [pN nm]
-    double viscous_dissipation;    // ∫ ½ ν D:D [pN nm/µs]
-    double mobility_dissipation;   // ∫ γ g²
-    double extension_dissipation;  // ∫ ξ ε² φ² |∇λ|²
+    double bending_energy;        // (D) [pN nm]
+    double viscous_dissipation;   // ∫ ½ ν D:D [pN nm/µs]
+    double mobility_dissipation;  // ∫ γ g²
+    double tension_power;         // ∫ λ |∇φ| P:∇u: the tension's, 0 if the membrane does not stretch anywhere
     double transport_power;  // ∫ ∂E/∂c (∂c/∂t + u·∇c): what molecules that move along the membrane add to E
     double area_strain_max;           // max |s − 1| on |φ| < 0.9
     double thickness_error_max;       // max | √2 ε|∇φ|/(1 − φ²) − 1 | along the membrane, on |φ| < 0.5

@@ -101,8 +101,8 @@ void TimeLoop::keep(const StepOutcome& outcome, double tau) {
 void TimeLoop::record(double tau, const StepDiagnostics& diagnostics) {
     const PhaseTimer timer(output_, "observables");
     observables_ = measure(contour_.curve, model_);
-    const double loss = diagnostics.viscous_dissipation + diagnostics.mobility_dissipation +
-                        diagnostics.extension_dissipation - diagnostics.transport_power;
+    const double loss = diagnostics.viscous_dissipation + diagnostics.mobility_dissipation + diagnostics.tension_power -
+                        diagnostics.transport_power;
     // (21) over the step, the power by the trapezoidal rule; the first step starts from rest in an instant.
     const double power = last_loss_ != 0 ? 0.5 * (last_loss_ + loss) : loss;
     const double residual = tau > 0 ? (diagnostics.bending_energy - last_energy_) / tau + power : 0;

@@ -29,8 +29,9 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
         const auto &old_psi = old_distance.on(cell, box, before), &guess = predicted_distance.on(cell, box, predicted),
                    &c_rate = molecule_rate.on(cell, box, rate);
         const auto &ur = local.field(velocity_r), &uz = local.field(velocity_z), &psi = local.field(distance),
-                   &lambda = local.field(tension), &c = local.field(molecule_density),
-                   &s = local.field(membrane_stretch), &b = local.field(moment), &g = local.field(normal_force);
+                   &lambda = local.field(tension), &layer_pressure = local.field(pressure_layer),
+                   &c = local.field(molecule_density), &s = local.field(membrane_stretch), &b = local.field(moment),
+                   &g = local.field(normal_force);
         for (unsigned int q = 0; q < quadrature.size(); ++q) {
             const double r = box.r0 + box.hr * quadrature.point(q)[0];
             const double w = two_pi * quadrature.weight(q) * box.hr * box.hz * r;
@@ -41,8 +42,8 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
             const double K = b.value[q] / bending.beta;
             const double nu = layer_viscosity(layer.phi, step.fluid, step.weight, numerics.viscosity_mean);
             const double hoop = ur.value[q] / r, shear = ur.z[q] + uz.r[q];
-            const double along = (psi.r[q] * lambda.r[q] + psi.z[q] * lambda.z[q]) / length;
-            const double leak = numerics.tension_leak * std::pow(layer.phi, 4);
+            const double stretching =
+                surface_divergence(psi.r[q] / length, psi.z[q] / length, ur.r[q], hoop, uz.z[q], shear);
             sums[0] += w * layer.delta;
             sums[1] += w * density * c.value[q];
             sums[2] += w * density * s.value[q];
@@ -50,8 +51,8 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
             sums[4] += w * nu * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
             if (step.fluid.dynamics == Dynamics::geometric)
                 sums[5] += w * step.fluid.normal_mobility * g.value[q] * g.value[q] * density;
-            sums[6] += w * (numerics.tension_alignment * (layer.squared_well + alignment_floor) * along * along +
-                            leak * (lambda.r[q] * lambda.r[q] + lambda.z[q] * lambda.z[q]));
+            sums[6] += w * (density * lambda.value[q] * stretching -
+                            layer.delta * layer_pressure.value[q] * (ur.r[q] + hoop + uz.z[q]));
             const double e = molecular_energy(b.value[q], K, bending);
             sums[7] += w * density * e * (c_rate.value[q] + ur.value[q] * c.r[q] + uz.value[q] * c.z[q]);
             if (std::abs(layer.phi) > layer_edge) continue;

@@ -12,6 +12,10 @@ std::vector<unsigned int> field_degrees(const PhaseFieldParameters& p) {
     return {ku, ku, ku - 1, kt, kt, k, k, k, ks, ks, ks};
 }
 
+ContourFields contour_fields(const Space& space, const Vector& solution) {
+    return {&space, &solution, distance, velocity_r, velocity_z, tension, 1, &space, &solution, molecule_density};
+}
+
 namespace {
 
 /// The value that an unknown at height z on a boundary is held at, if it is.

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "phasefield/contour/cell_contour.h"
 #include "phasefield/discretization/space.h"
 
 namespace endoflow::phasefield::production {
@@ -33,6 +34,9 @@ using Fields = std::array<AtPoint<Number>, n_fields>;
 
 /// Polynomial degrees in the order of Field.
 std::vector<unsigned int> field_degrees(const PhaseFieldParameters& parameters);
+
+/// Where the membrane and the fields on it are found.
+ContourFields contour_fields(const Space& space, const Vector& solution);
 
 /// Closes the constraints (values of the increments): u_r = 0 on the axis; on r = R s = 1, u_z = 0 in the pin band, ψ
 /// fixed and no G across the whole layer. λ = 0 at the rim is natural. Without flow (geometric dynamics) u, p and λ are

@@ -7,6 +7,7 @@
 #include "phasefield/production/fields.h"
 #include "phasefield/production/membrane_weight.h"
 #include "phasefield/weak_forms/bending.h"
+#include "phasefield/weak_forms/interface_geometry.h"
 #include "shared/model/double_well.h"
 
 namespace endoflow::phasefield::production {
@@ -59,8 +60,7 @@ inline constexpr double force_alignment = 20;    // [ε²] keeps G constant alon
 inline constexpr double moment_alignment = 20;   // [ε²] the same for b
 inline constexpr double step_alignment = 20;     // [ε² per step] the same for c and s, and of ∂ψ/∂t
 inline constexpr double alignment_floor = 1e-4;  // [of (1 − φ²)²] the same for λ and q
-inline constexpr double far_part = 1e-7;         // of M, with which ψ is continued outside of the layer
-inline constexpr double far_smoothing = 1.02;    // of Δψ there
+inline constexpr double far_part = 1e-7;         // of M, with which ψ becomes the distance far from the layer
 inline constexpr double layer_pressure_alignment = 30;     // [nm³/(pN µs)] keeps q constant along the normal
 inline constexpr double pressure_leak = 0.01;              // [nm/(pN µs)] ∇·u per q: decides between p and δ q
 inline constexpr double least_normal_diffusivity = 1.1e5;  // [nm⁵/µs/ε³] of c: 6.4e4 nm²/µs at ε = 1.2 nm
@@ -95,18 +95,6 @@ Number cut_density(const LayerProfile<Number>& layer) {
 template <class Number>
 Number membrane_density(const LayerProfile<Number>& layer, const MembraneWeight& w) {
     return cut_density(layer) * (w.constant + w.square * (layer.phi * layer.phi));
-}
-
-/// φ⁸, one outside of the layer, and its derivative with respect to ψ [1/nm].
-template <class Number>
-struct Outside {
-    Number value, slope;
-};
-
-template <class Number>
-Outside<Number> outside_of(const LayerProfile<Number>& layer) {
-    const Number phi2 = layer.phi * layer.phi, phi4 = phi2 * phi2;
-    return {phi4 * phi4, 8.0 * phi4 * phi2 * layer.phi * layer.phi_slope};
 }
 
 /// β, C and their derivatives with respect to c as functions of c.
@@ -287,9 +275,7 @@ void add_inextensibility(const Fields<Number>& x, const PointGeometry<Number>& p
                          const StepNumbers& step, Fields<Number>& row) {
     const auto &ur = x[velocity_r], &uz = x[velocity_z], &lambda = x[tension];
     const Number& s = x[membrane_stretch].value;
-    const Number stretching =
-        ur.r + ur.value / r + uz.z -
-        (p.normal_r * p.normal_r * ur.r + p.normal_r * p.normal_z * (ur.z + uz.r) + p.normal_z * p.normal_z * uz.z);
+    const Number stretching = surface_divergence<Number>(p.normal_r, p.normal_z, ur.r, ur.value / r, uz.z, ur.z + uz.r);
     row[tension].value = p.density * (stretching - step.numerics.strain_relaxation * (s - 1.0));
     extend_multiplier(lambda, p, past, step.numerics.tension_alignment, step.numerics.tension_leak, row[tension]);
 }
@@ -302,16 +288,8 @@ inline double within_a_step(double diffusivity, const StepNumbers& step) {
 
 /// (35): δ_m ( ∂ψ/∂t + u·∇ψ ) = −(mobility) δ_m G. |∇ψ| = 1 is kept by fluxes along the normal. They conserve ∫H, so
 /// they do not move the membrane. 20 ε² δ n·∇(∂ψ/∂t) vanishes for distance functions however they move and outweighs
-/// δ_m where that is negative; M ε δ (n·∇ψ − 1) restores what is lost. Divided by max δ.
-///
-/// A small part of the row continues ψ outside of the layer, n the last normal and g = φ⁸:
-///
-///   1.02 Δψ − (1 − g) ∇·n − g φ (n·∇ψ − 1)/ε = 0.
-///
-/// In the layer that is a Poisson equation which any ψ with these normals solves. Outside it is a linearisation of the
-/// viscous eikonal equation |∇ψ| = 1 + 1.02 ε φ Δψ, which has one solution, the distance, rounded within ε of where
-/// normals cross. The former alone would keep whatever valleys ψ once had there and carry them into a neck. A hundred
-/// times that part would disturb the neck itself, where the layers meet.
+/// δ_m where that is negative; M ε δ (n·∇ψ − 1) restores what is lost. Far from the layer ψ solves ∇·(∇ψ − n) = 0,
+/// whose solution is the distance, for n are the normals of the curve φ = 0 there. Divided by max δ.
 template <class Number>
 void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past,
                 const StepNumbers& step, Fields<Number>& row) {
@@ -323,19 +301,13 @@ void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const P
         weight * (step.rate * psi.value + past.distance + x[velocity_r].value * psi.r + x[velocity_z].value * psi.z);
     if (step.fluid.dynamics == Dynamics::geometric) rate += step.fluid.normal_mobility * weight * x[normal_force].value;
 
-    const Number excess = n.r * psi.r + n.z * psi.z - 1.0;
     const Number changing_r = step.rate * psi.r + past.slope_r, changing_z = step.rate * psi.z + past.slope_z;
-    const Number aligning = (step_alignment * epsilon * epsilon) * p.layer.squared_well,
-                 restoring = (step.profile_relaxation * epsilon) * p.layer.squared_well * excess;
+    const Number aligning = (step_alignment * epsilon * epsilon) * p.layer.squared_well;
     const double far = step.numerics.profile_relaxation * epsilon * far_part;
-    const auto outside = outside_of(p.layer);
-    const Number inside = far * (1.0 - outside.value);
-    row[distance] = {
-        rate + far * ((1 / epsilon) * outside.value * p.layer.phi * excess + outside.slope * (excess + 1.0)),
-        aligning * normal_part(n, n.r, changing_r, n.z, changing_z) + (restoring - inside) * n.r +
-            (far * far_smoothing) * psi.r,
-        aligning * normal_part(n, n.z, changing_z, n.r, changing_r) + (restoring - inside) * n.z +
-            (far * far_smoothing) * psi.z};
+    const Number flux = (step.profile_relaxation * epsilon) * p.layer.squared_well * (n.r * psi.r + n.z * psi.z - 1.0);
+    row[distance] = {rate,
+                     aligning * normal_part(n, n.r, changing_r, n.z, changing_z) + (flux - far) * n.r + far * psi.r,
+                     aligning * normal_part(n, n.z, changing_z, n.r, changing_r) + (flux - far) * n.z + far * psi.z};
 }
 
 /// ∂(δ_m y)/∂t + ∇·(δ_m y v), v the fluid's velocity along the membrane and the level sets' own velocity across it. The

@@ -83,9 +83,7 @@ void ProductionScheme::renew() {
 }
 
 Contour ProductionScheme::contour(const Vector& solution) const {
-    const ContourFields fields{&space_, &solution, distance, velocity_r, velocity_z,
-                               tension, 1,         &space_,  &solution,  molecule_density};
-    return extract_contour(fields, parameters_);
+    return extract_contour(contour_fields(space_, solution), parameters_);
 }
 
 StepOutcome ProductionScheme::present() {

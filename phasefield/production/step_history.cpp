@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "phasefield/contour/closest_normal.h"
+#include "phasefield/contour/contour.h"
 #include "phasefield/discretization/scalar_basis.h"
 #include "phasefield/production/assembly.h"
 
@@ -28,7 +30,12 @@ class HistoryFields {
   public:
     HistoryFields(const Space& space, const dealii::Quadrature<2>& quadrature, const StepNumbers& step,
                   const StepHistory& history)
-        : space_(&space), step_(&step), history_(&history), values_(space.element.n_dofs_per_cell()) {
+        : space_(&space),
+          quadrature_(&quadrature),
+          step_(&step),
+          history_(&history),
+          membrane_(contour_segments(contour_fields(space, history.solutions->front()))),
+          values_(space.element.n_dofs_per_cell()) {
         for (const unsigned int degree : space.degrees)
             if (!bases_.contains(degree)) bases_.emplace(degree, ScalarBasis(degree, quadrature));
     }
@@ -41,16 +48,20 @@ class HistoryFields {
             cell->get_dof_values((*history_->solutions)[j], values_);
             add_past(box, history_->weights[j], history_->ahead[j], points);
         }
-        // The predicted normal in the layer; the last one far from it, where extrapolation would amplify what is there.
+        // The predicted normal in the layer. Far from it, where extrapolation would amplify what is there and ψ may
+        // have valleys, the membrane's at the last solution: with those of ψ itself valleys would stay for ever.
+        membrane_.start(box);
         cell->get_dof_values(history_->solutions->front(), values_);
         field(distance, box, psi_);
         cell->get_dof_values(*history_->extrapolated, values_);
         field(distance, box, predicted_, Derivatives::second);
         for (std::size_t q = 0; q < points.size(); ++q) {
             const double well = layer_profile(psi_.value[q], step_->numerics.epsilon).squared_well;
+            const auto& x = quadrature_->point(static_cast<unsigned int>(q));
+            const auto last = membrane_.at(box.r0 + box.hr * x[0], box.z0 + box.hz * x[1]);
             const auto normal = [&](double r, double z, double last_below) {
                 const double w = well / (well + last_below);
-                return direction(w * r + (1 - w) * psi_.r[q], w * z + (1 - w) * psi_.z[q]);
+                return direction(w * r + (1 - w) * last.r, w * z + (1 - w) * last.z);
             };
             const Direction n = normal(predicted_.r[q], predicted_.z[q], last_normal_below);
             points[q].normal = n;
@@ -88,8 +99,10 @@ class HistoryFields {
     }
 
     const Space* space_;
+    const dealii::Quadrature<2>* quadrature_;
     const StepNumbers* step_;
     const StepHistory* history_;
+    ClosestNormal membrane_;
     std::map<unsigned int, ScalarBasis> bases_;
     dealii::Vector<double> values_;
     std::vector<double> coefficients_, ahead_r_, ahead_z_;

@@ -29,6 +29,13 @@ inline LayerGeometry layer_geometry(double phi_r, double phi_z, double epsilon) 
     return {a, nr, nz, 1 - nr * nr, -nr * nz, 1 - nz * nz};
 }
 
+/// P:∇u = u_r,r + u_r/r + u_z,z − n·∇u·n from ∂u_r/∂r, the hoop term u_r/r, ∂u_z/∂z and ∂u_r/∂z + ∂u_z/∂r.
+template <class Number>
+Number surface_divergence(const Number& normal_r, const Number& normal_z, const Number& rr, const Number& hoop,
+                          const Number& zz, const Number& shear) {
+    return rr + hoop + zz - (normal_r * normal_r * rr + normal_r * normal_z * shear + normal_z * normal_z * zz);
+}
+
 /// div n of n = ∇φ/|∇φ| in the axisymmetric metric [1/nm], floored where |∇φ| vanishes.
 inline double normal_divergence(const PhaseFieldPoint& phi, double r, double floor) {
     const double a2 = phi.r * phi.r + phi.z * phi.z + floor * floor;

@@ -213,8 +213,7 @@ TEST_CASE("a small bud conserves its molecules, loses energy and keeps profile a
         const auto& seen = outcome.diagnostics;
         const double loss = (energy - seen.bending_energy) / tau;
         const double power_before = power, inflow_before = inflow;
-        power =
-            seen.viscous_dissipation + seen.mobility_dissipation + seen.extension_dissipation - seen.transport_power;
+        power = seen.viscous_dissipation + seen.mobility_dissipation + seen.tension_power - seen.transport_power;
         // (21) with the power of the molecules' transport over the step, by the trapezoidal rule: 0.1 % is left.
         if (count > 4) CHECK(loss == Approx(0.5 * (power + power_before)).epsilon(0.003));
         // What flows in through the open walls is the volume that the membrane takes in, to the trapezoidal rule, and

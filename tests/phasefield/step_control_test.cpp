@@ -55,7 +55,7 @@ TEST_CASE("a step ends at the deadline without a tiny last step", "[control]") {
 }
 
 TEST_CASE("contour segments join to one chain whatever their order and direction", "[contour]") {
-    const auto point = [](double r, double z) { return ContourPoint{r, z, 0, 0, 0, 0, 0}; };
+    const auto point = [](double r, double z) { return ContourPoint{r, z}; };
     const std::vector<ContourSegment> segments = {{point(2, 0), point(1, 1e-10)},
                                                   {point(0, 0), point(1, 0)},
                                                   {point(3, 0), point(2, -1e-10)},
