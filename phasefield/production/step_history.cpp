@@ -16,8 +16,9 @@ namespace endoflow::phasefield::production {
 
 namespace {
 
-// Below these values of (1 − φ²)² the last normal takes over. c's, within the layer: the force e ∇c is some 900 pN.
-constexpr double last_normal_below = 1e-2, last_molecules_normal_below = 1e-4;
+// Below these values of (1 − φ²)² the closest point's normal takes over. c's, within the layer: the force e ∇c is some
+// 900 pN.
+constexpr double last_normal_below = 1e-3, last_molecules_normal_below = 1e-4;
 constexpr double shortest_gradient = 0.3;  // below it normals fade: they are about to cross
 
 Direction direction(double r, double z) {
