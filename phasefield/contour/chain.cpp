@@ -15,13 +15,12 @@ class PointNumbering {
     explicit PointNumbering(double tolerance) : tolerance_(tolerance) {}
 
     std::size_t number(const ContourPoint& point) {
-        const std::int64_t i = bucket(point[0]), k = bucket(point[1]);
+        const std::int64_t i = bucket(point.r), k = bucket(point.z);
         for (std::int64_t di = -1; di <= 1; ++di)
             for (std::int64_t dk = -1; dk <= 1; ++dk)
                 if (const auto found = buckets_.find({i + di, k + dk}); found != buckets_.end())
                     for (const std::size_t known : found->second)
-                        if (std::hypot(points[known][0] - point[0], points[known][1] - point[1]) <= tolerance_)
-                            return known;
+                        if (distance_between(points[known], point) <= tolerance_) return known;
         buckets_[{i, k}].push_back(points.size());
         points.push_back(point);
         return points.size() - 1;
@@ -71,11 +70,9 @@ std::vector<ContourChain> join_segments(const std::vector<ContourSegment>& segme
 ContourChain thin_out(const ContourChain& chain, double spacing) {
     ContourChain out;
     for (const auto& point : chain)
-        if (out.empty() || std::hypot(point[0] - out.back()[0], point[1] - out.back()[1]) >= spacing)
-            out.push_back(point);
+        if (out.empty() || distance_between(point, out.back()) >= spacing) out.push_back(point);
     if (out.back() != chain.back()) {
-        if (out.size() > 1 && std::hypot(chain.back()[0] - out.back()[0], chain.back()[1] - out.back()[1]) < spacing)
-            out.pop_back();
+        if (out.size() > 1 && distance_between(chain.back(), out.back()) < spacing) out.pop_back();
         out.push_back(chain.back());
     }
     return out;

@@ -1,12 +1,31 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace endoflow::phasefield {
 
-/// r, z, c, λ, κ, u_r, u_z and the components of the level set's unit normal at a point of the contour.
-using ContourPoint = std::array<double, 9>;
+/// Where the level set crosses a line between lattice points of a cell, and the fields there.
+struct ContourPoint {
+    double r = 0, z = 0;                    // [nm]
+    double molecules = 0;                   // c
+    double tension = 0, curvature = 0;      // sharp λ [pN/nm], κ [1/nm]
+    double velocity_r = 0, velocity_z = 0;  // [nm/µs]
+    double normal_r = 0, normal_z = 0;      // ∇ψ/|∇ψ|
+
+    bool operator==(const ContourPoint&) const = default;
+
+    template <class Archive>  // of Boost.Serialization, with which processes exchange segments
+    void serialize(Archive& archive, unsigned int /*version*/) {
+        archive& r& z& molecules& tension& curvature& velocity_r& velocity_z& normal_r& normal_z;
+    }
+};
+
+/// [nm]
+inline double distance_between(const ContourPoint& a, const ContourPoint& b) {
+    return std::hypot(b.r - a.r, b.z - a.z);
+}
 
 /// Two points joined inside one cell.
 using ContourSegment = std::array<ContourPoint, 2>;

@@ -8,52 +8,79 @@ namespace endoflow::phasefield {
 
 namespace {
 
-double cross(double a_r, double a_z, double b_r, double b_z) {
-    return a_r * b_z - a_z * b_r;
+double cross(const PlanePoint& a, const PlanePoint& b) {
+    return a.r * b.z - a.z * b.r;
 }
+
+/// a + t b.
+PlanePoint along(const PlanePoint& a, double t, const PlanePoint& b) {
+    return {a.r + t * b.r, a.z + t * b.z};
+}
+
+/// A segment seen from x: a + t edge − x with the normal n + t turn.
+struct View {
+    PlanePoint start, edge, normal, turn;
+
+    View(const ContourSegment& s, const PlanePoint& x)
+        : start{s[0].r - x.r, s[0].z - x.z},
+          edge{s[1].r - s[0].r, s[1].z - s[0].z},
+          normal{s[0].normal_r, s[0].normal_z},
+          turn{s[1].normal_r - s[0].normal_r, s[1].normal_z - s[0].normal_z} {}
+
+    /// t of the chord's closest point.
+    [[nodiscard]] double closest() const {
+        const double square = edge.r * edge.r + edge.z * edge.z;
+        return square > 0 ? std::clamp(-(start.r * edge.r + start.z * edge.z) / square, 0.0, 1.0) : 0;
+    }
+
+    [[nodiscard]] double distance(double t) const {
+        const PlanePoint to = along(start, t, edge);
+        return std::hypot(to.r, to.z);
+    }
+
+    /// Newton's method for (a + t edge − x) × (n + t turn) = 0: the normal there points to x or away from it.
+    [[nodiscard]] double foot(double t) const {
+        for (int iteration = 0; iteration < 3; ++iteration) {
+            const PlanePoint to = along(start, t, edge), n = along(normal, t, turn);
+            const double slope = cross(edge, n) + cross(to, turn);
+            if (slope == 0) break;
+            t = std::clamp(t - cross(to, n) / slope, -1.0, 2.0);
+        }
+        return t;
+    }
+};
 
 }  // namespace
 
 void ClosestNormal::start(const CellBox& box) {
-    const double r = box.r0 + 0.5 * box.hr, z = box.z0 + 0.5 * box.hz, reach = std::hypot(box.hr, box.hz);
-    // From the middle of the cell to the nearer end of a segment; a point of the cell is half of `reach` away, and the
-    // rest of the segment may be nearer by its length.
-    const auto nearest = [&](const ContourSegment& s) {
-        return std::min(std::hypot(s[0][0] - r, s[0][1] - z), std::hypot(s[1][0] - r, s[1][1] - z));
-    };
-    double least = std::numeric_limits<double>::max();
-    for (const auto& s : segments_) least = std::min(least, nearest(s));
-    near_.clear();
+    const ContourPoint middle{box.r0 + 0.5 * box.hr, box.z0 + 0.5 * box.hz};
+    // From the middle of the cell to the nearer end of each segment; a point of the cell is half a diagonal away, and
+    // the rest of the segment may be nearer by its length.
+    nearer_end_.clear();
     for (const auto& s : segments_)
-        if (nearest(s) - std::hypot(s[1][0] - s[0][0], s[1][1] - s[0][1]) <= least + reach) near_.push_back(s);
+        nearer_end_.push_back(std::min(distance_between(s[0], middle), distance_between(s[1], middle)));
+    const double least = segments_.empty() ? 0 : std::ranges::min(nearer_end_), diagonal = std::hypot(box.hr, box.hz);
+    near_.clear();
+    for (std::size_t i = 0; i < segments_.size(); ++i)
+        if (nearer_end_[i] - distance_between(segments_[i][0], segments_[i][1]) <= least + diagonal)
+            near_.push_back(segments_[i]);
 }
 
 PlanePoint ClosestNormal::at(double r, double z) const {
     const ContourSegment* closest = nullptr;
-    double least = std::numeric_limits<double>::max(), t = 0;
+    double least = std::numeric_limits<double>::max();
     for (const auto& s : near_) {
-        const double e_r = s[1][0] - s[0][0], e_z = s[1][1] - s[0][1], square = e_r * e_r + e_z * e_z;
-        const double along = (r - s[0][0]) * e_r + (z - s[0][1]) * e_z;
-        const double part = square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0;
-        const double distance = std::hypot(r - s[0][0] - part * e_r, z - s[0][1] - part * e_z);
+        const View view(s, {r, z});
+        const double distance = view.distance(view.closest());
         if (distance >= least) continue;
         least = distance;
         closest = &s;
-        t = part;
     }
     if (closest == nullptr) return {0, 0};
-    // Newton's method for (x − a − t e) × (n_a + t (n_b − n_a)) = 0.
-    const auto &a = (*closest)[0], &b = (*closest)[1];
-    const double e_r = b[0] - a[0], e_z = b[1] - a[1], turn_r = b[7] - a[7], turn_z = b[8] - a[8];
-    for (int iteration = 0; iteration < 3; ++iteration) {
-        const double n_r = a[7] + t * turn_r, n_z = a[8] + t * turn_z, x_r = r - a[0] - t * e_r,
-                     x_z = z - a[1] - t * e_z;
-        const double slope = cross(x_r, x_z, turn_r, turn_z) - cross(e_r, e_z, n_r, n_z);
-        if (slope == 0) break;
-        t = std::clamp(t - cross(x_r, x_z, n_r, n_z) / slope, -1.0, 2.0);
-    }
-    const double n_r = a[7] + t * turn_r, n_z = a[8] + t * turn_z, length = std::hypot(n_r, n_z);
-    return length > 0 ? PlanePoint{n_r / length, n_z / length} : PlanePoint{0, 0};
+    const View view(*closest, {r, z});
+    const PlanePoint n = along(view.normal, view.foot(view.closest()), view.turn);
+    const double length = std::hypot(n.r, n.z);
+    return length > 0 ? PlanePoint{n.r / length, n.z / length} : PlanePoint{0, 0};
 }
 
 }  // namespace endoflow::phasefield

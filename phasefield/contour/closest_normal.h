@@ -22,6 +22,7 @@ class ClosestNormal {
 
   private:
     std::vector<ContourSegment> segments_, near_;
+    std::vector<double> nearer_end_;  // of each segment from the middle of the cell [nm]
 };
 
 }  // namespace endoflow::phasefield

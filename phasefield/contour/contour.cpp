@@ -26,15 +26,15 @@ MembraneCurve to_curve(const ContourChain& chain) {
     double s = 0;
     for (std::size_t i = 0; i < chain.size(); ++i) {
         const auto& p = chain[i];
-        if (i > 0) s += std::hypot(p[0] - chain[i - 1][0], p[1] - chain[i - 1][1]);
+        if (i > 0) s += distance_between(chain[i - 1], p);
         curve.s.push_back(s);
-        curve.r.push_back(p[0]);
-        curve.z.push_back(p[1]);
-        curve.c.push_back(p[2]);
-        curve.lambda.push_back(p[3]);
-        curve.kappa.push_back(p[4]);
-        curve.u_r.push_back(p[5]);
-        curve.u_z.push_back(p[6]);
+        curve.r.push_back(p.r);
+        curve.z.push_back(p.z);
+        curve.c.push_back(p.molecules);
+        curve.lambda.push_back(p.tension);
+        curve.kappa.push_back(p.curvature);
+        curve.u_r.push_back(p.velocity_r);
+        curve.u_z.push_back(p.velocity_z);
     }
     return curve;
 }
@@ -53,12 +53,12 @@ Contour extract_contour(const ContourFields& fields, const Parameters& p) {
     const auto segments = contour_segments(fields);
     const double R = p.domain.radius, tolerance = 1e-7 * p.phase_field.cell_size;
     auto chains = join_segments(segments, tolerance);
-    const auto on_axis = [&](const ContourPoint& point) { return std::abs(point[0]) < tolerance; };
-    const auto on_rim = [&](const ContourPoint& point) { return std::abs(point[0] - R) < tolerance; };
+    const auto on_axis = [&](const ContourPoint& point) { return std::abs(point.r) < tolerance; };
+    const auto on_rim = [&](const ContourPoint& point) { return std::abs(point.r - R) < tolerance; };
     for (auto& chain : chains) {
         if (on_rim(chain.front())) std::reverse(chain.begin(), chain.end());
         if (!on_axis(chain.front()) || !on_rim(chain.back())) continue;
-        chain.front()[0] = 0;
+        chain.front().r = 0;
         const double spacing = 0.4 * p.phase_field.cell_size / subdivisions;
         return {to_curve(thin_out(chain, spacing)), static_cast<unsigned int>(chains.size())};
     }

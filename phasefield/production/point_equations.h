@@ -36,7 +36,7 @@ struct PointHistory {
     double molecules = 0;   // of δ_m c
     double stretching = 0;  // of δ_m s
     double velocity_r = 0, velocity_z = 0;
-    Direction normal;                   // n = ∇ψ/|∇ψ|
+    Direction normal;                   // n = ∇ψ/|∇ψ|; far from the membrane that of its closest point
     Direction molecules_normal;         // the same with the error of BDF, for c
     double slope_r = 0, slope_z = 0;    // ∇Σ_j a_j ψ(t_j)
     double change_r = 0, change_z = 0;  // n·∇∇ψ [1/nm]: 0 where ψ is a distance

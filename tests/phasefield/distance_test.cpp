@@ -6,10 +6,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "one_step.h"
 #include "phasefield/contour/closest_normal.h"
 #include "phasefield/discretization/component_field.h"
-#include "phasefield/discretization/mesh.h"
-#include "phasefield/production/step_solver.h"
 #include "small_case.h"
 
 using namespace endoflow;
@@ -40,7 +39,10 @@ double largest_normal_error(int count) {
     constexpr double radius = 10, z0 = 50;  // of curvature on the axis [nm]
     const auto at = [&](double r) {
         const double length = std::hypot(r, radius);
-        return ContourPoint{r, z0 + r * r / (2 * radius), 0, 0, 0, 0, 0, -r / length, radius / length};
+        ContourPoint point{r, z0 + r * r / (2 * radius)};
+        point.normal_r = -r / length;
+        point.normal_z = radius / length;
+        return point;
     };
     std::vector<ContourSegment> chords;
     for (int i = 0; i < count; ++i) chords.push_back({at(30.0 * i / count), at(30.0 * (i + 1) / count)});
@@ -49,11 +51,11 @@ double largest_normal_error(int count) {
     for (double r = 0.1; r < 25; r += 0.37)
         for (const double away : {-6.0, -2.0, 1e-3, 3.0, 6.0}) {
             const ContourPoint foot = at(r);
-            const double x = foot[0] + away * foot[7], z = foot[1] + away * foot[8];
+            const double x = foot.r + away * foot.normal_r, z = foot.z + away * foot.normal_z;
             if (x < 0) continue;
             normals.start({2 * std::floor(x / 2), 2 * std::floor(z / 2), 2, 2});
             const PlanePoint n = normals.at(x, z);
-            largest = std::max(largest, std::abs(n.r * foot[8] - n.z * foot[7]));
+            largest = std::max(largest, std::abs(n.r * foot.normal_z - n.z * foot.normal_r));
         }
     return largest;
 }
@@ -74,15 +76,9 @@ TEST_CASE("a pit in the distance outside of the layer fills up", "[distance]") {
     p.domain.height = 60;
     p.domain.membrane_height = 20;
     p.phase_field.far_refinements = 0;
-    const auto mesh = coarse_mesh(p, MPI_COMM_SELF);
-    Space space(*mesh, field_degrees(p.phase_field));
-    space.distribute();
-    close_constraints(space, p);
-    const BendingModel model(p.membrane);
-    StepSolver solver(p, model, MPI_COMM_SELF, 1e-6);
-    solver.reinit(space);
-    const StepNumbers numbers{
-        20, p.phase_field, p.fluid, p.molecules, membrane_weight(p.fluid, p.phase_field.viscosity_mean), 1000};
+    OneStep one(p, 1e-6);
+    const StepNumbers numbers = step_numbers(p, 20, 1000);
+    const Space& space = one.space;
     // 6 nm deep and 2.5 nm wide, on the axis 18 nm above a flat membrane at rest: |∇ψ| is up to 2.1 towards its bottom,
     // so that the normals around it point away from the membrane.
     const auto with_pit = [&](double r, double z) {
@@ -99,7 +95,7 @@ TEST_CASE("a pit in the distance outside of the layer fills up", "[distance]") {
     for (int step = 0; step < 6; ++step) {
         const StepHistory history(space, numbers, past, {-numbers.rate}, {1}, past[0]);
         Vector x = past[0];
-        solver.solve(space, numbers, history, x);
+        one.solver.solve(space, numbers, history, x);
         past[0] = x;
     }
     // What keeps ∂ψ/∂n from step to step lets a fifth of the pit stay in each; measured 1.3e-4 nm after six, 3e-6 nm in

@@ -5,9 +5,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "one_step.h"
 #include "phasefield/discretization/component_field.h"
-#include "phasefield/discretization/mesh.h"
-#include "phasefield/production/step_solver.h"
 
 using namespace endoflow;
 using namespace endoflow::phasefield;
@@ -53,15 +52,9 @@ std::array<double, n_fields> errors(unsigned int cells) {
     p.phase_field.epsilon = 4.8;
     p.phase_field.cell_size = width / cells;
     p.phase_field.far_refinements = 0;
-    const auto mesh = coarse_mesh(p, MPI_COMM_SELF);
-    Space space(*mesh, field_degrees(p.phase_field));
-    space.distribute();
-    close_constraints(space, p);
-    const BendingModel model(p.membrane);
-    StepSolver solver(p, model, MPI_COMM_SELF, 1e-9);
-    solver.reinit(space);
-    const StepNumbers numbers{
-        2000, p.phase_field, p.fluid, p.molecules, membrane_weight(p.fluid, p.phase_field.viscosity_mean), 1000};
+    OneStep one(p, 1e-9);
+    const StepNumbers numbers = step_numbers(p, 2000, 1000);
+    const Space& space = one.space;
     Vector x = space.vector();
     for (unsigned int f = 0; f < n_fields; ++f)
         interpolate(
@@ -71,7 +64,7 @@ std::array<double, n_fields> errors(unsigned int cells) {
     past.front().update_ghost_values();
     StepHistory history(space, numbers, past, {-2000}, {1}, past.front());
     history.manufactured = solution;
-    solver.solve(space, numbers, history, x);
+    one.solver.solve(space, numbers, history, x);
 
     std::array<double, n_fields> out{};
     const dealii::QGauss<2> quadrature(gauss_points(p.phase_field));

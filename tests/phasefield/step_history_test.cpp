@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "one_step.h"
 #include "phasefield/discretization/mesh.h"
 #include "phasefield/evolution/layer_integral.h"
 #include "phasefield/production/assembly.h"
@@ -41,8 +42,7 @@ double largest_deviation(double turn) {
         x.update_ghost_values();
         angle -= turn;
     }
-    const StepNumbers numbers{
-        2000, p.phase_field, p.fluid, p.molecules, membrane_weight(p.fluid, p.phase_field.viscosity_mean), 1000};
+    const StepNumbers numbers = step_numbers(p, 2000, 1000);
     const StepHistory history(space, numbers, past, {-6000, 3000, -667}, {3, -3, 1}, past[0]);
 
     double largest = 0;
