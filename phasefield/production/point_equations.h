@@ -33,6 +33,7 @@ struct Direction {
 /// and of the predicted ψ the normal, at which alignment aims, and how ∇ψ changes along it.
 struct PointHistory {
     double distance = 0;    // of ψ
+    double indicator = 0;   // of H_m
     double molecules = 0;   // of δ_m c
     double stretching = 0;  // of δ_m s
     double velocity_r = 0, velocity_z = 0;
@@ -84,11 +85,17 @@ LayerProfile<Number> layer_profile(const Number& psi, double epsilon) {
     return {phi, (inverse_sqrt2 / epsilon) * well, delta, (-2 / (inverse_sqrt2 * epsilon)) * phi * delta, squared};
 }
 
-/// δ [1/nm] with its tails cut off: four ε from the membrane the alignment along the normals, weighted by δ, shall
+/// What is left of δ in its tails: four ε from the membrane the alignment along the normals, weighted by δ, shall
 /// decide alone, for there normals may cross, and a step multiplies δ by up to exp(2√2 motion/ε).
 template <class Number>
+Number kept_part(const LayerProfile<Number>& layer) {
+    return layer.squared_well / (layer.squared_well + weight_cut);
+}
+
+/// δ [1/nm] with its tails cut off.
+template <class Number>
 Number cut_density(const LayerProfile<Number>& layer) {
-    return layer.delta * layer.squared_well / (layer.squared_well + weight_cut);
+    return layer.delta * kept_part(layer);
 }
 
 /// δ_m [1/nm] with its tails cut off.
@@ -312,16 +319,19 @@ void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const P
 
 /// ∂(δ_m y)/∂t + ∇·(δ_m y v), v the fluid's velocity along the membrane and the level sets' own velocity across it. The
 /// two differ where the profile is being restored; with the fluid's velocity alone y would grow in the layer's tails.
+/// Across, δ_m v is −(∂H_m/∂t) n/|∇ψ|, for with BDF's ∂H_m/∂t a plane membrane keeps a constant y however far it moves
+/// in a step; δ_m ∂ψ/∂t instead leaves an error of the order of (motion/ε)³.
 template <class Number>
 void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past,
                    double weighted_past, const StepNumbers& step, AtPoint<Number>& row) {
     const auto &ur = x[velocity_r].value, &uz = x[velocity_z].value;
     const Number density = p.density * y;
+    const Number crossing = step.rate * membrane_indicator(p.layer.phi, step.weight) + past.indicator;
     const Number across =
-        (step.rate * x[distance].value + past.distance) * p.inverse_gradient + p.normal_r * ur + p.normal_z * uz;
+        density * (p.normal_r * ur + p.normal_z * uz) + y * kept_part(p.layer) * crossing * p.inverse_gradient;
     row.value = step.rate * density + weighted_past;
-    row.r = (-1.0) * density * (ur - across * p.normal_r);
-    row.z = (-1.0) * density * (uz - across * p.normal_z);
+    row.r = across * p.normal_r - density * ur;
+    row.z = across * p.normal_z - density * uz;
 }
 
 /// D_n of c [nm²/µs], larger the thinner the layer. The shear within the layer tilts c's level lines off the normal, by
