@@ -196,8 +196,8 @@ TEST_CASE("backward differentiation is exact for polynomials of its order", "[pr
 }
 
 TEST_CASE("a plane membrane does not stretch however far it moves in a step", "[production]") {
-    // What remains is the cut of δ_m's tails, at 2 ε 0.2 % of δ_m there times what a step of ε multiplies δ by: measured
-    // 0.006. With δ_m ∂ψ/∂t for the flux across, a motion of ε changes s by 0.07 (−2 ε), 0.8 (0) and 21 (2 ε).
+    // What remains is the cut of δ_m's tails, at 2 ε 0.2 % of δ_m there times what a step of ε multiplies δ by:
+    // measured 0.006. With δ_m ∂ψ/∂t for the flux across, a motion of ε changes s by 0.07 (−2 ε), 0.8 (0) and 21 (2 ε).
     const Parameters p;
     const double epsilon = p.phase_field.epsilon;
     for (const double motion : {0.1 * epsilon, epsilon})
