@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "phasefield/production/dual.h"
 #include "phasefield/production/fields.h"
@@ -33,7 +34,7 @@ struct Direction {
 /// and of the predicted ψ the normal, at which alignment aims, and how ∇ψ changes along it.
 struct PointHistory {
     double distance = 0;    // of ψ
-    double indicator = 0;   // of H_m
+    double indicator = 0;   // of ∫ δ_m dψ
     double molecules = 0;   // of δ_m c
     double stretching = 0;  // of δ_m s
     double velocity_r = 0, velocity_z = 0;
@@ -85,23 +86,26 @@ LayerProfile<Number> layer_profile(const Number& psi, double epsilon) {
     return {phi, (inverse_sqrt2 / epsilon) * well, delta, (-2 / (inverse_sqrt2 * epsilon)) * phi * delta, squared};
 }
 
-/// What is left of δ in its tails: four ε from the membrane the alignment along the normals, weighted by δ, shall
+/// δ [1/nm] with its tails cut off: four ε from the membrane the alignment along the normals, weighted by δ, shall
 /// decide alone, for there normals may cross, and a step multiplies δ by up to exp(2√2 motion/ε).
 template <class Number>
-Number kept_part(const LayerProfile<Number>& layer) {
-    return layer.squared_well / (layer.squared_well + weight_cut);
-}
-
-/// δ [1/nm] with its tails cut off.
-template <class Number>
 Number cut_density(const LayerProfile<Number>& layer) {
-    return layer.delta * kept_part(layer);
+    return layer.delta * layer.squared_well / (layer.squared_well + weight_cut);
 }
 
 /// δ_m [1/nm] with its tails cut off.
 template <class Number>
 Number membrane_density(const LayerProfile<Number>& layer, const MembraneWeight& w) {
     return cut_density(layer) * (w.constant + w.square * (layer.phi * layer.phi));
+}
+
+/// ∫ δ_m dψ from φ = 0, with the tails cut off: what is cut off is ¾ f ((a + b) x − b x²)/(x² + f) dφ with
+/// x = 1 − φ² and f = weight_cut, real and imaginary part of ∫ dφ/(x − i√f).
+inline double cut_indicator(double phi, const MembraneWeight& w) {
+    const double root = std::sqrt(weight_cut);
+    const std::complex<double> end = std::sqrt(std::complex<double>(1, -root)), part = std::atanh(phi / end) / end;
+    const double cut = (w.constant + w.square) * part.real() - w.square * (phi - root * part.imag());
+    return membrane_indicator(phi, w) - 0.75 * weight_cut * cut;
 }
 
 /// β, C and their derivatives with respect to c as functions of c.
@@ -319,16 +323,17 @@ void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const P
 
 /// ∂(δ_m y)/∂t + ∇·(δ_m y v), v the fluid's velocity along the membrane and the level sets' own velocity across it. The
 /// two differ where the profile is being restored; with the fluid's velocity alone y would grow in the layer's tails.
-/// Across, δ_m v is −(∂H_m/∂t) n/|∇ψ|, for with BDF's ∂H_m/∂t a plane membrane keeps a constant y however far it moves
-/// in a step; δ_m ∂ψ/∂t instead leaves an error of the order of (motion/ε)³.
+/// Across, δ_m v is −(∂H/∂t) n/|∇ψ| with H = ∫ δ_m dψ, for with BDF's ∂H/∂t a plane membrane keeps a constant y however
+/// far it moves in a step; δ_m ∂ψ/∂t instead leaves an error of the order of (motion/ε)³.
 template <class Number>
 void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry<Number>& p, const PointHistory& past,
                    double weighted_past, const StepNumbers& step, AtPoint<Number>& row) {
     const auto &ur = x[velocity_r].value, &uz = x[velocity_z].value;
     const Number density = p.density * y;
-    const Number crossing = step.rate * membrane_indicator(p.layer.phi, step.weight) + past.indicator;
-    const Number across =
-        density * (p.normal_r * ur + p.normal_z * uz) + y * kept_part(p.layer) * crossing * p.inverse_gradient;
+    const Number indicator =
+        chain(x[distance].value, cut_indicator(value_of(p.layer.phi), step.weight), value_of(p.density));
+    const Number crossing = step.rate * indicator + past.indicator;
+    const Number across = density * (p.normal_r * ur + p.normal_z * uz) + y * crossing * p.inverse_gradient;
     row.value = step.rate * density + weighted_past;
     row.r = across * p.normal_r - density * ur;
     row.z = across * p.normal_z - density * uz;

@@ -88,7 +88,7 @@ class HistoryFields {
             const auto layer = layer_profile(psi_.value[q], step_->numerics.epsilon);
             const double density = membrane_density(layer, step_->weight);
             points[q].distance += weight * psi_.value[q];
-            points[q].indicator += weight * membrane_indicator(layer.phi, step_->weight);
+            points[q].indicator += weight * cut_indicator(layer.phi, step_->weight);
             points[q].slope_r += weight * psi_.r[q];
             points[q].slope_z += weight * psi_.z[q];
             ahead_r_[q] += ahead * psi_.r[q];
