@@ -102,8 +102,9 @@ Number membrane_density(const LayerProfile<Number>& layer, const MembraneWeight&
 /// ∫ δ_m dψ from φ = 0, with the tails cut off: what is cut off is ¾ f ((a + b) x − b x²)/(x² + f) dφ with
 /// x = 1 − φ² and f = weight_cut, real and imaginary part of ∫ dφ/(x − i√f).
 inline double cut_indicator(double phi, const MembraneWeight& w) {
-    const double root = std::sqrt(weight_cut);
-    const std::complex<double> end = std::sqrt(std::complex<double>(1, -root)), part = std::atanh(phi / end) / end;
+    static const double root = std::sqrt(weight_cut);
+    static const std::complex<double> end = std::sqrt(std::complex<double>(1, -root));
+    const std::complex<double> part = std::atanh(phi / end) / end;
     const double cut = (w.constant + w.square) * part.real() - w.square * (phi - root * part.imag());
     return membrane_indicator(phi, w) - 0.75 * weight_cut * cut;
 }
@@ -150,6 +151,7 @@ template <class Number>
 struct PointGeometry {
     LayerProfile<Number> layer;
     Number surface, density;                                        // δ with a floor, δ_m [1/nm]
+    Number indicator;                                               // ∫ δ_m dψ
     Number normal_r, normal_z, squared_gradient, inverse_gradient;  // n = ∇ψ/|∇ψ|; |∇ψ|²; 1/|∇ψ|
 };
 
@@ -330,9 +332,7 @@ void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry
                    double weighted_past, const StepNumbers& step, AtPoint<Number>& row) {
     const auto &ur = x[velocity_r].value, &uz = x[velocity_z].value;
     const Number density = p.density * y;
-    const Number indicator =
-        chain(x[distance].value, cut_indicator(value_of(p.layer.phi), step.weight), value_of(p.density));
-    const Number crossing = step.rate * indicator + past.indicator;
+    const Number crossing = step.rate * p.indicator + past.indicator;
     const Number across = density * (p.normal_r * ur + p.normal_z * uz) + y * crossing * p.inverse_gradient;
     row.value = step.rate * density + weighted_past;
     row.r = across * p.normal_r - density * ur;
@@ -392,13 +392,12 @@ Fields<Number> point_equations(const Fields<Number>& x, double r, const PointHis
     const Number squared = psi.r * psi.r + psi.z * psi.z;
     const Number inverse = inverse_root(squared + gradient_floor * gradient_floor);
     const auto layer = layer_profile(psi.value, epsilon);
-    const PointGeometry<Number> p{layer,
-                                  layer.delta + surface_floor,
-                                  membrane_density(layer, step.weight),
-                                  psi.r * inverse,
-                                  psi.z * inverse,
-                                  squared,
-                                  inverse};
+    const Number density = membrane_density(layer, step.weight);
+    const PointGeometry<Number> p{
+        layer,           layer.delta + surface_floor,
+        density,         chain(psi.value, cut_indicator(value_of(layer.phi), step.weight), value_of(density)),
+        psi.r * inverse, psi.z * inverse,
+        squared,         inverse};
     Fields<Number> row;
     const Number e = add_bending(x, p, model, epsilon, past, row);
     add_flow(x, p, e, r, past, step, row);

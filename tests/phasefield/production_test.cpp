@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "one_step.h"
 #include "phasefield/production/assembly.h"
 #include "phasefield/production/bdf.h"
 #include "phasefield/production/production_scheme.h"
@@ -35,7 +36,7 @@ Fields<double> some_point() {
 }
 
 StepNumbers numbers(const Parameters& p) {
-    return {40.0, p.phase_field, p.fluid, p.molecules, membrane_weight(p.fluid, p.phase_field.viscosity_mean)};
+    return step_numbers(p, 40, p.phase_field.profile_relaxation);
 }
 
 /// Reads a column of early.csv at the first row, 0.0005 µs.
@@ -74,8 +75,6 @@ double change_of_stretch(const Parameters& p, double psi, double motion) {
         past.normal = past.molecules_normal = {0, -1};
         for (std::size_t j = 0; j < 3; ++j) {
             const double before = -z - static_cast<double>(j + 1) * motion;
-            past.distance += bdf.past[j] * before;
-            past.slope_z -= bdf.past[j];
             past.indicator += bdf.past[j] * cut_indicator(profile(before).phi, step.weight);
             past.stretching += bdf.past[j] * membrane_density(profile(before), step.weight);
         }
