@@ -40,9 +40,7 @@ EquationPattern::EquationPattern(const Parameters& p, const BendingModel& model)
     for (unsigned int f = 0; f < n_fields; ++f) values[f] = {0.31 + 0.05 * f, 0.27 + 0.03 * f, 0.41 - 0.02 * f};
     PointHistory past;
     past.normal = past.molecules_normal = {0.6, 0.8};
-    past.change_r = 0.3;
-    past.change_z = 0.2;
-    const auto rows = point_equations(fields_from<FeatureDual>(values), 3.0, past,
+    const auto rows = point_equations(fields_from<FeatureDual>(values), 3.0, past, {0.3, 0.2},
                                       {1.0, p.phase_field, p.fluid, p.molecules, {}}, model);
     for (unsigned int row = 0; row < n_features; ++row)
         for (unsigned int column = 0; column < n_features; ++column)
@@ -62,6 +60,7 @@ class CellEquations {
                   const Vector& iterate)
         : quadrature(gauss_points(step.numerics)),
           local(space, quadrature),
+          space_(&space),
           model_(&model),
           step_(&step),
           iterate_(&iterate),
@@ -76,13 +75,18 @@ class CellEquations {
         const auto& manufactured = history_->manufactured;
         cell->get_dof_values(*iterate_, values_);
         local.start(box, values_);
+        component_values(*space_, distance, values_, coefficients_);
+        evaluate(local.basis(distance), box, coefficients_, Derivatives::second, psi_);
         for (unsigned int q = 0; q < quadrature.size(); ++q) {
             const double r = box.r0 + box.hr * quadrature.point(q)[0];
             PointValues values;
             for (unsigned int f = 0; f < n_fields; ++f)
                 values[f] = {local.field(f).value[q], local.field(f).r[q], local.field(f).z[q]};
-            auto rows = point_equations(fields_from<Number>(values), r, past[q], *step_, *model_);
-            if (manufactured) take_off(manufactured(r, box.z0 + box.hz * quadrature.point(q)[1]), r, past[q], rows);
+            const Direction& n = past[q].normal;
+            const GradientChange change{n.r * psi_.rr[q] + n.z * psi_.rz[q], n.r * psi_.rz[q] + n.z * psi_.zz[q]};
+            auto rows = point_equations(fields_from<Number>(values), r, past[q], change, *step_, *model_);
+            if (manufactured)
+                take_off(manufactured(r, box.z0 + box.hz * quadrature.point(q)[1]), r, past[q], change, rows);
             visit(q, quadrature.weight(q) * box.hr * box.hz * r, rows);
         }
     }
@@ -92,8 +96,9 @@ class CellEquations {
 
   private:
     template <class Number>
-    void take_off(const PointValues& solution, double r, const PointHistory& past, Fields<Number>& rows) const {
-        const auto own = point_equations(fields_from<double>(solution), r, past, *step_, *model_);
+    void take_off(const PointValues& solution, double r, const PointHistory& past, const GradientChange& change,
+                  Fields<Number>& rows) const {
+        const auto own = point_equations(fields_from<double>(solution), r, past, change, *step_, *model_);
         for (unsigned int f = 0; f < n_fields; ++f) {
             rows[f].value = rows[f].value - own[f].value;
             rows[f].r = rows[f].r - own[f].r;
@@ -101,11 +106,14 @@ class CellEquations {
         }
     }
 
+    const Space* space_;
     const BendingModel* model_;
     const StepNumbers* step_;
     const Vector* iterate_;
     const StepHistory* history_;
     dealii::Vector<double> values_;
+    std::vector<double> coefficients_;  // of ψ on the cell
+    ScalarField psi_;
 };
 
 /// The loop over cells: residual, and the Jacobian when Number carries derivatives.

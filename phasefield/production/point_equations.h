@@ -31,17 +31,22 @@ struct Direction {
 };
 
 /// What is known at a point besides the iterate: Σ_j a_j y(t_j) of the past for every quantity with a time derivative,
-/// and of the predicted ψ the normal, at which alignment aims, and how ∇ψ changes along it.
+/// and of the predicted ψ the normal, at which alignment aims.
 struct PointHistory {
     double distance = 0;    // of ψ
     double indicator = 0;   // of ∫ δ_m dψ
     double molecules = 0;   // of δ_m c
     double stretching = 0;  // of δ_m s
     double velocity_r = 0, velocity_z = 0;
-    Direction normal;                   // n = ∇ψ/|∇ψ|; far from the membrane that of its closest point
-    Direction molecules_normal;         // the same with the error of BDF, for c
-    double slope_r = 0, slope_z = 0;    // ∇Σ_j a_j ψ(t_j)
-    double change_r = 0, change_z = 0;  // n·∇∇ψ [1/nm]: 0 where ψ is a distance
+    Direction normal;                 // n = ∇ψ/|∇ψ|; far from the membrane that of its closest point
+    Direction molecules_normal;       // the same with the error of BDF, for c
+    double slope_r = 0, slope_z = 0;  // ∇Σ_j a_j ψ(t_j)
+};
+
+/// n·∇∇ψ [1/nm] with the predicted n: how ∇ψ changes along the normal, 0 where ψ is a distance. The Jacobian holds it
+/// fixed.
+struct GradientChange {
+    double r = 0, z = 0;
 };
 
 /// Numbers of one step.
@@ -246,17 +251,18 @@ void extend_multiplier(const AtPoint<Number>& y, const PointGeometry<Number>& p,
 }
 
 /// (32), (33): momentum with the forces δ_m (G ∇ψ + e ∇c) − ∇·(δ_m λ P), and volume. The diffusion of G along the
-/// normal would leave a net force on the membrane where ∇ψ changes along it, D δ ∂ₙG ∂ₙ∇ψ, which is added. Its work is
-/// nobody's loss, though: where layers meet and ψ is no distance it would pump, so it fades there. The pressure
-/// in the layer is p + δ q, q constant along the normal the multiplier of ∫δ ∇·u across the layer: p alone, continuous
-/// and quadratic, cannot follow δ on cells as wide as the layer, and the rest would drive a spurious flow.
+/// normal would leave a net force on the membrane where ∇ψ changes along it, D δ ∂ₙG ∂ₙ∇ψ, which is added. With ∂ₙ∇ψ of
+/// an extrapolated ψ, whose tails the layer has reached after a step of ε, some pN would remain. The force's work is
+/// nobody's loss: where layers meet and ψ is no distance it would pump, so it fades there. The pressure in the layer is
+/// p + δ q, q constant along the normal the multiplier of ∫δ ∇·u across the layer: p alone, continuous and quadratic,
+/// cannot follow δ on cells as wide as the layer, and the rest would drive a spurious flow.
 template <class Number>
 void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Number& e, double r,
-              const PointHistory& past, const StepNumbers& step, Fields<Number>& row) {
+              const PointHistory& past, const GradientChange& change, const StepNumbers& step, Fields<Number>& row) {
     const auto &ur = x[velocity_r], &uz = x[velocity_z], &psi = x[distance], &c = x[molecule_density];
     const auto& G = x[normal_force];
     const Number g = p.density * G.value, molecular = step.weight.cut * p.density * e;
-    const double kink = uneven_fade * step.numerics.epsilon * std::hypot(past.change_r, past.change_z);
+    const double kink = uneven_fade * step.numerics.epsilon * std::hypot(change.r, change.z);
     const Number uneven = (1 / (1 + kink * kink)) * force_diffusivity(p, step.numerics.epsilon) *
                           (past.normal.r * G.r + past.normal.z * G.z);
     const Number nu = layer_viscosity(p.layer.phi, step.fluid, step.weight, step.numerics.viscosity_mean);
@@ -264,10 +270,9 @@ void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Num
     const Number isotropic = x[pressure].value + p.layer.delta * x[pressure_layer].value;
     const Number stretch = p.density * x[tension].value;
     const Number shear = nu * (ur.z + uz.r) - stretch * p.normal_r * p.normal_z;
-    row[velocity_r] = {
-        (2.0 * nu * hoop - isotropic + stretch) / r - g * psi.r - molecular * c.r - uneven * past.change_r,
-        2.0 * nu * ur.r - isotropic + stretch * (1.0 - p.normal_r * p.normal_r), shear};
-    row[velocity_z] = {-g * psi.z - molecular * c.z - uneven * past.change_z, shear,
+    row[velocity_r] = {(2.0 * nu * hoop - isotropic + stretch) / r - g * psi.r - molecular * c.r - uneven * change.r,
+                       2.0 * nu * ur.r - isotropic + stretch * (1.0 - p.normal_r * p.normal_r), shear};
+    row[velocity_z] = {-g * psi.z - molecular * c.z - uneven * change.z, shear,
                        2.0 * nu * uz.z - isotropic + stretch * (1.0 - p.normal_z * p.normal_z)};
     if (step.fluid.inertia) {
         const double rho = step.fluid.density;
@@ -385,8 +390,8 @@ void add_stretching(const Fields<Number>& x, const PointGeometry<Number>& p, con
 
 /// All rows at one point at radius r [nm].
 template <class Number>
-Fields<Number> point_equations(const Fields<Number>& x, double r, const PointHistory& past, const StepNumbers& step,
-                               const BendingModel& model) {
+Fields<Number> point_equations(const Fields<Number>& x, double r, const PointHistory& past,
+                               const GradientChange& change, const StepNumbers& step, const BendingModel& model) {
     const double epsilon = step.numerics.epsilon;
     const auto& psi = x[distance];
     const Number squared = psi.r * psi.r + psi.z * psi.z;
@@ -400,7 +405,7 @@ Fields<Number> point_equations(const Fields<Number>& x, double r, const PointHis
         squared,         inverse};
     Fields<Number> row;
     const Number e = add_bending(x, p, model, epsilon, past, row);
-    add_flow(x, p, e, r, past, step, row);
+    add_flow(x, p, e, r, past, change, step, row);
     add_inextensibility(x, p, past, r, step, row);
     add_motion(x, p, past, step, row);
     add_molecules(x, p, past, step, row);

@@ -25,8 +25,7 @@ constexpr double tolerated_excess = 2;   // of the error over its tolerance, bey
 constexpr double newton_part = 0.002;    // of the step's tolerance to which Newton's method converges
 constexpr double smallest_step = 1e-5;   // of the first one
 constexpr double relaxation_per_speed = 2000;  // M is at most this many times the speed of the membrane
-// Of the membrane in one step, in units of ε: with more than one the volume was 0.8 % off at 0.02 µs (ε = 0.3 nm).
-constexpr double largest_motion = 0.8;
+constexpr double largest_motion = 1.5;         // of the membrane in one step [ε]
 
 /// Largest error of the membrane's position per step [nm].
 double position_tolerance(const Parameters& p) {

@@ -55,7 +55,7 @@ class HistoryFields {
         cell->get_dof_values(history_->solutions->front(), values_);
         field(distance, box, psi_);
         cell->get_dof_values(*history_->extrapolated, values_);
-        field(distance, box, predicted_, Derivatives::second);
+        field(distance, box, predicted_);
         for (std::size_t q = 0; q < points.size(); ++q) {
             const double well = layer_profile(psi_.value[q], step_->numerics.epsilon).squared_well;
             const auto& x = quadrature_->point(static_cast<unsigned int>(q));
@@ -64,18 +64,15 @@ class HistoryFields {
                 const double w = well / (well + last_below);
                 return direction(w * r + (1 - w) * last.r, w * z + (1 - w) * last.z);
             };
-            const Direction n = normal(predicted_.r[q], predicted_.z[q], last_normal_below);
-            points[q].normal = n;
+            points[q].normal = normal(predicted_.r[q], predicted_.z[q], last_normal_below);
             points[q].molecules_normal = normal(ahead_r_[q], ahead_z_[q], last_molecules_normal_below);
-            points[q].change_r = n.r * predicted_.rr[q] + n.z * predicted_.rz[q];
-            points[q].change_z = n.r * predicted_.rz[q] + n.z * predicted_.zz[q];
         }
     }
 
   private:
-    void field(unsigned int component, const CellBox& box, ScalarField& out, Derivatives order = Derivatives::first) {
+    void field(unsigned int component, const CellBox& box, ScalarField& out) {
         component_values(*space_, component, values_, coefficients_);
-        evaluate(bases_.at(space_->degrees[component]), box, coefficients_, order, out);
+        evaluate(bases_.at(space_->degrees[component]), box, coefficients_, Derivatives::first, out);
     }
 
     void add_past(const CellBox& box, double weight, double ahead, std::vector<PointHistory>& points) {

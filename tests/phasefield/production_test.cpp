@@ -82,7 +82,7 @@ double change_of_stretch(const Parameters& p, double psi, double motion) {
         x[distance] = {-z, 0, -1};
         x[velocity_z].value = motion / tau;
         x[membrane_stretch].value = 1;
-        return point_equations(x, 7.0, past, step, BendingModel(p.membrane))[membrane_stretch];
+        return point_equations(x, 7.0, past, {}, step, BendingModel(p.membrane))[membrane_stretch];
     };
     constexpr double h = 1e-4;
     const double divergence = (row(-psi + h).z - row(-psi - h).z) / (2 * h);
@@ -102,8 +102,7 @@ TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
             const BendingModel model(p.membrane);
             PointHistory past;
             past.normal = past.molecules_normal = {0.5, 0.6};
-            past.change_r = 0.3;
-            past.change_z = -0.2;
+            const GradientChange change{0.3, -0.2};
             past.slope_r = 0.1;
             past.slope_z = 0.05;
             const auto x = some_point();
@@ -114,14 +113,14 @@ TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
                 variable.value = part(xk[k / 3], k % 3);
                 variable.partial[k] = 1;
             }
-            auto rows = point_equations(seeded, 7.0, past, numbers(p), model);
+            auto rows = point_equations(seeded, 7.0, past, change, numbers(p), model);
             constexpr double step = 1e-5;
             for (std::size_t k = 0; k < n_features; ++k) {
                 auto up = x, down = x;
                 part(up[k / 3], k % 3) += step;
                 part(down[k / 3], k % 3) -= step;
-                auto above = point_equations(up, 7.0, past, numbers(p), model),
-                     below = point_equations(down, 7.0, past, numbers(p), model);
+                auto above = point_equations(up, 7.0, past, change, numbers(p), model),
+                     below = point_equations(down, 7.0, past, change, numbers(p), model);
                 for (std::size_t i = 0; i < n_features; ++i) {
                     const double difference = (part(above[i / 3], i % 3) - part(below[i / 3], i % 3)) / (2 * step);
                     // Central differences: step² times third derivatives of order 1e3, and round-off over the step.
@@ -152,7 +151,7 @@ TEST_CASE("forces are the variation of the energy", "[production]") {
     x[normal_force] = {};  // its own terms are not the energy's
     PointHistory past;
     past.normal = past.molecules_normal = {0.6, 0.8};
-    auto rows = point_equations(x, 7.0, past, numbers(p), model);
+    auto rows = point_equations(x, 7.0, past, {}, numbers(p), model);
     for (const Field field : {distance, Field::moment})
         for (std::size_t k = 0; k < 3; ++k) {
             constexpr double step = 1e-5;
@@ -165,6 +164,25 @@ TEST_CASE("forces are the variation of the energy", "[production]") {
             // step² times third derivatives of order 10, and round-off over the step.
             CHECK(-row == Approx(derivative).epsilon(1e-7).margin(1e-8));
         }
+}
+
+TEST_CASE("what keeps G constant along the normal exerts no net force", "[production]") {
+    // A translation of the membrane along z is u = e_z for the flow and χ = ∂ψ/∂z for G: the two powers are equal.
+    const Parameters p;
+    Fields<double> x{};
+    x[distance] = {0.4, 0.5, -0.7};
+    x[normal_force] = {0.3, 0.2, -0.6};
+    PointHistory past;
+    past.normal = past.molecules_normal = {0.6, -0.8};
+    const double chi_r = 2e-5, chi_z = 3e-5;  // so small that the force does not fade: by 4e-8 of itself
+    const GradientChange change{0, past.normal.r * chi_r + past.normal.z * chi_z};
+    const auto rows = point_equations(x, 7.0, past, change, numbers(p), BendingModel(p.membrane));
+    const auto& own = rows[normal_force];
+    const double flow = rows[velocity_z].value, force = own.value * x[distance].z + own.r * chi_r + own.z * chi_z,
+                 aligned = own.r * chi_r + own.z * chi_z;
+    // The floor of δ, 1e-8/nm times G ∂ψ/∂z, which has no counterpart in the flow.
+    CHECK(std::abs(aligned) > 1e-5);
+    CHECK(flow == Approx(-force).margin(1e-8));
 }
 
 TEST_CASE("backward differentiation is exact for polynomials of its order", "[production]") {
