@@ -6,8 +6,9 @@
 
 namespace endoflow::phasefield {
 
-LocalSystem::LocalSystem(const Space& space, const dealii::Quadrature<2>& quadrature)
+LocalSystem::LocalSystem(const Space& space, const dealii::Quadrature<2>& quadrature, std::optional<unsigned int> twice)
     : space_(&space),
+      twice_(twice),
       n_components_(static_cast<unsigned int>(space.degrees.size())),
       fields_(n_components_),
       residuals_(n_components_),
@@ -31,7 +32,8 @@ void LocalSystem::start(const CellBox& box, const dealii::Vector<double>& iterat
     box_ = box;
     for (unsigned int component = 0; component < n_components_; ++component) {
         component_values(*space_, component, iterate, coefficients_);
-        evaluate(*bases_[component], box_, coefficients_, Derivatives::first, fields_[component]);
+        evaluate(*bases_[component], box_, coefficients_,
+                 twice_ == component ? Derivatives::second : Derivatives::first, fields_[component]);
         std::fill(residuals_[component].begin(), residuals_[component].end(), 0.0);
     }
     for (std::size_t block = 0; block < blocks_.size(); ++block)

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "phasefield/discretization/scalar_basis.h"
@@ -27,7 +28,8 @@ using Coefficients = std::vector<double>;
 /// where I is the test function's component, A, B ∈ {N, ∂N/∂r, ∂N/∂z} and w_q contains the measure.
 class LocalSystem {
   public:
-    LocalSystem(const Space& space, const dealii::Quadrature<2>& quadrature);
+    /// `twice`: the component whose second derivatives are evaluated, too.
+    LocalSystem(const Space& space, const dealii::Quadrature<2>& quadrature, std::optional<unsigned int> twice = {});
 
     /// Starts a cell: zero residual and Jacobian, and the iterate's values at the quadrature points.
     void start(const CellBox& box, const dealii::Vector<double>& iterate);
@@ -38,7 +40,7 @@ class LocalSystem {
     void jacobian(unsigned int test, Op test_op, unsigned int trial, const std::array<const Coefficients*, 3>& weights);
     void linear(unsigned int test, Op test_op, unsigned int trial, Op trial_op, const Coefficients& weight);
 
-    /// The present iterate's component (first derivatives).
+    /// The present iterate's component (first derivatives, of one component second ones).
     [[nodiscard]] const ScalarField& field(unsigned int component) const { return fields_[component]; }
     [[nodiscard]] const Coefficients& field(unsigned int component, Op op) const;
     [[nodiscard]] const ScalarBasis& basis(unsigned int component) const { return *bases_[component]; }
@@ -57,6 +59,7 @@ class LocalSystem {
     [[nodiscard]] double scale(Op op) const;
 
     const Space* space_;
+    std::optional<unsigned int> twice_;
     unsigned int n_components_;
     std::vector<std::shared_ptr<const ScalarBasis>> bases_;
     std::vector<ScalarField> fields_;

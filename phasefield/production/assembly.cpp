@@ -59,8 +59,7 @@ class CellEquations {
     CellEquations(const Space& space, const BendingModel& model, const StepNumbers& step, const StepHistory& history,
                   const Vector& iterate)
         : quadrature(gauss_points(step.numerics)),
-          local(space, quadrature),
-          space_(&space),
+          local(space, quadrature, distance),
           model_(&model),
           step_(&step),
           iterate_(&iterate),
@@ -75,15 +74,14 @@ class CellEquations {
         const auto& manufactured = history_->manufactured;
         cell->get_dof_values(*iterate_, values_);
         local.start(box, values_);
-        component_values(*space_, distance, values_, coefficients_);
-        evaluate(local.basis(distance), box, coefficients_, Derivatives::second, psi_);
+        const ScalarField& psi = local.field(distance);
         for (unsigned int q = 0; q < quadrature.size(); ++q) {
             const double r = box.r0 + box.hr * quadrature.point(q)[0];
             PointValues values;
             for (unsigned int f = 0; f < n_fields; ++f)
                 values[f] = {local.field(f).value[q], local.field(f).r[q], local.field(f).z[q]};
             const Direction& n = past[q].normal;
-            const GradientChange change{n.r * psi_.rr[q] + n.z * psi_.rz[q], n.r * psi_.rz[q] + n.z * psi_.zz[q]};
+            const GradientChange change{n.r * psi.rr[q] + n.z * psi.rz[q], n.r * psi.rz[q] + n.z * psi.zz[q]};
             auto rows = point_equations(fields_from<Number>(values), r, past[q], change, *step_, *model_);
             if (manufactured)
                 take_off(manufactured(r, box.z0 + box.hz * quadrature.point(q)[1]), r, past[q], change, rows);
@@ -106,14 +104,11 @@ class CellEquations {
         }
     }
 
-    const Space* space_;
     const BendingModel* model_;
     const StepNumbers* step_;
     const Vector* iterate_;
     const StepHistory* history_;
     dealii::Vector<double> values_;
-    std::vector<double> coefficients_;  // of ψ on the cell
-    ScalarField psi_;
 };
 
 /// The loop over cells: residual, and the Jacobian when Number carries derivatives.
