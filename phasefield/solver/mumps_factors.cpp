@@ -1,6 +1,6 @@
 #include "phasefield/solver/mumps_factors.h"
 
-#include <dmumps_c.h>
+#include <smumps_c.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,13 +31,13 @@ struct MumpsFactors::Handle {
     /// 0, or what went wrong, negative.
     int run(Job job) {
         id.job = job;
-        dmumps_c(&id);
+        smumps_c(&id);
         return id.infog[0];
     }
     /// ICNTL(number) of the user's guide.
     MUMPS_INT& control(int number) { return id.icntl[number - 1]; }
 
-    DMUMPS_STRUC_C id{};
+    SMUMPS_STRUC_C id{};
 };
 
 MumpsFactors::MumpsFactors(const dealii::SparsityPattern& pattern, unsigned int kept)
@@ -55,12 +55,14 @@ MumpsFactors::MumpsFactors(const dealii::SparsityPattern& pattern, unsigned int 
         columns_.push_back(static_cast<int>(entry.column()) + 1);
     }
     values_.resize(rows_.size());
+    scaled_values_.resize(rows_.size());
     std::iota(kept_unknowns_.begin(), kept_unknowns_.end(), static_cast<int>(size_ - kept) + 1);
     auto& id = handle_->id;
     id.n = static_cast<MUMPS_INT>(size_);
     id.nnz = static_cast<MUMPS_INT8>(rows_.size());
     id.irn = rows_.data();
     id.jcn = columns_.data();
+    id.a = scaled_values_.data();
     id.rhs = work_.data();
     handle_->control(6) = 0;  // no permutation of columns: pivoting finds what is not on the diagonal
     handle_->control(7) = 2;  // approximate minimum fill: a quarter less work here than METIS
@@ -80,7 +82,6 @@ MumpsFactors::MumpsFactors(const dealii::SparsityPattern& pattern, unsigned int 
 MumpsFactors::~MumpsFactors() = default;
 
 void MumpsFactors::scale() {
-    const std::size_t eliminated = size_ - kept_;
     const auto position = [](int number) { return static_cast<std::size_t>(number - 1); };
     const auto invert_largest = [&](const std::vector<int>& indices, std::vector<double>& scale) {
         std::fill(scale.begin(), scale.end(), 0);
@@ -88,11 +89,13 @@ void MumpsFactors::scale() {
             double& largest = scale[position(indices[k])];
             largest = std::max(largest, std::abs(values_[k]));
         }
-        for (std::size_t i = 0; i < size_; ++i) scale[i] = i < eliminated && scale[i] > 0 ? 1 / scale[i] : 1;
+        for (std::size_t i = 0; i < size_; ++i) scale[i] = scale[i] > 0 ? 1 / scale[i] : 1;
         for (std::size_t k = 0; k < values_.size(); ++k) values_[k] *= scale[position(indices[k])];
     };
     invert_largest(rows_, row_scale_);
     invert_largest(columns_, column_scale_);
+    std::transform(values_.begin(), values_.end(), scaled_values_.begin(),
+                   [](double x) { return static_cast<float>(x); });
 }
 
 bool MumpsFactors::factorise(const dealii::SparseMatrix<double>& matrix, dealii::FullMatrix<double>& left) {
@@ -100,7 +103,6 @@ bool MumpsFactors::factorise(const dealii::SparseMatrix<double>& matrix, dealii:
     std::size_t next = 0;
     for (const auto& entry : matrix) values_[next++] = entry.value();
     scale();
-    handle_->id.a = values_.data();
 
     int status = handle_->run(job_factorise);
     while ((status == -8 || status == -9) && handle_->control(14) < most_spare_workspace) {
@@ -109,26 +111,38 @@ bool MumpsFactors::factorise(const dealii::SparseMatrix<double>& matrix, dealii:
     }
     if (status < 0) return false;
     left.reinit(kept_, kept_);
+    const std::size_t eliminated = size_ - kept_;
+    std::size_t entry = 0;
     for (unsigned int i = 0; i < kept_; ++i)
-        for (unsigned int k = 0; k < kept_; ++k) left(i, k) = left_[static_cast<std::size_t>(i) * kept_ + k];
+        for (unsigned int k = 0; k < kept_; ++k)
+            left(i, k) =
+                static_cast<double>(left_[entry++]) / row_scale_[eliminated + i] / column_scale_[eliminated + k];
     return true;
 }
 
 bool MumpsFactors::reduce(const dealii::Vector<double>& right_hand_side, dealii::Vector<double>& reduced) {
-    for (unsigned int i = 0; i < size_; ++i) work_[i] = row_scale_[i] * right_hand_side(i);
+    // The kept unknowns' residual is only a process's part of it: it does not vanish with the whole, and single
+    // precision would leave a rest of it.
+    const std::size_t eliminated = size_ - kept_;
+    for (unsigned int i = 0; i < size_; ++i)
+        work_[i] = i < eliminated ? static_cast<float>(row_scale_[i] * right_hand_side(i)) : 0;
     if (kept_ == 0) return true;
     handle_->control(26) = 1;
     const int status = handle_->run(job_solve);
-    std::copy(reduced_.begin(), reduced_.end(), reduced.begin());
+    for (unsigned int k = 0; k < kept_; ++k) {
+        const auto i = static_cast<unsigned int>(eliminated + k);
+        reduced(k) = right_hand_side(i) + static_cast<double>(reduced_[k]) / row_scale_[i];
+    }
     return status >= 0;
 }
 
 bool MumpsFactors::expand(const dealii::Vector<double>& kept, dealii::Vector<double>& solution) {
     if (size_ == 0) return true;
-    std::copy(kept.begin(), kept.end(), reduced_.begin());
+    const std::size_t eliminated = size_ - kept_;
+    for (unsigned int i = 0; i < kept_; ++i) reduced_[i] = static_cast<float>(kept(i) / column_scale_[eliminated + i]);
     handle_->control(26) = kept_ > 0 ? 2 : 0;
     const int status = handle_->run(job_solve);
-    for (unsigned int i = 0; i < size_; ++i) solution(i) = column_scale_[i] * work_[i];
+    for (unsigned int i = 0; i < size_; ++i) solution(i) = column_scale_[i] * static_cast<double>(work_[i]);
     return status >= 0;
 }
 
