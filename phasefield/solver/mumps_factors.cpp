@@ -55,14 +55,13 @@ MumpsFactors::MumpsFactors(const dealii::SparsityPattern& pattern, unsigned int 
         columns_.push_back(static_cast<int>(entry.column()) + 1);
     }
     values_.resize(rows_.size());
-    scaled_values_.resize(rows_.size());
     std::iota(kept_unknowns_.begin(), kept_unknowns_.end(), static_cast<int>(size_ - kept) + 1);
     auto& id = handle_->id;
     id.n = static_cast<MUMPS_INT>(size_);
     id.nnz = static_cast<MUMPS_INT8>(rows_.size());
     id.irn = rows_.data();
     id.jcn = columns_.data();
-    id.a = scaled_values_.data();
+    id.a = values_.data();
     id.rhs = work_.data();
     handle_->control(6) = 0;  // no permutation of columns: pivoting finds what is not on the diagonal
     handle_->control(7) = 2;  // approximate minimum fill: a quarter less work here than METIS
@@ -81,28 +80,25 @@ MumpsFactors::MumpsFactors(const dealii::SparsityPattern& pattern, unsigned int 
 
 MumpsFactors::~MumpsFactors() = default;
 
-void MumpsFactors::scale() {
-    const auto position = [](int number) { return static_cast<std::size_t>(number - 1); };
-    const auto invert_largest = [&](const std::vector<int>& indices, std::vector<double>& scale) {
-        std::fill(scale.begin(), scale.end(), 0);
-        for (std::size_t k = 0; k < values_.size(); ++k) {
-            double& largest = scale[position(indices[k])];
-            largest = std::max(largest, std::abs(values_[k]));
-        }
-        for (std::size_t i = 0; i < size_; ++i) scale[i] = scale[i] > 0 ? 1 / scale[i] : 1;
-        for (std::size_t k = 0; k < values_.size(); ++k) values_[k] *= scale[position(indices[k])];
-    };
-    invert_largest(rows_, row_scale_);
-    invert_largest(columns_, column_scale_);
-    std::transform(values_.begin(), values_.end(), scaled_values_.begin(),
-                   [](double x) { return static_cast<float>(x); });
+void MumpsFactors::scale(const dealii::SparseMatrix<double>& matrix) {
+    const auto invert = [](double largest) { return largest > 0 ? 1 / largest : 1; };
+    std::fill(row_scale_.begin(), row_scale_.end(), 0);
+    for (const auto& entry : matrix)
+        row_scale_[entry.row()] = std::max(row_scale_[entry.row()], std::abs(entry.value()));
+    std::transform(row_scale_.begin(), row_scale_.end(), row_scale_.begin(), invert);
+    std::fill(column_scale_.begin(), column_scale_.end(), 0);
+    for (const auto& entry : matrix)
+        column_scale_[entry.column()] =
+            std::max(column_scale_[entry.column()], std::abs(entry.value()) * row_scale_[entry.row()]);
+    std::transform(column_scale_.begin(), column_scale_.end(), column_scale_.begin(), invert);
+    std::size_t next = 0;
+    for (const auto& entry : matrix)
+        values_[next++] = static_cast<float>(entry.value() * row_scale_[entry.row()] * column_scale_[entry.column()]);
 }
 
 bool MumpsFactors::factorise(const dealii::SparseMatrix<double>& matrix, dealii::FullMatrix<double>& left) {
     if (size_ == 0) return true;
-    std::size_t next = 0;
-    for (const auto& entry : matrix) values_[next++] = entry.value();
-    scale();
+    scale(matrix);
 
     int status = handle_->run(job_factorise);
     while ((status == -8 || status == -9) && handle_->control(14) < most_spare_workspace) {

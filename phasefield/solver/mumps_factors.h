@@ -33,15 +33,15 @@ class MumpsFactors {
   private:
     struct Handle;
 
-    /// The sizes of rows and columns differ by many powers of ten, and pivoting compares them. The kept ones' stay.
-    void scale();
+    /// The sizes of rows and columns differ by many powers of ten, and pivoting compares them.
+    void scale(const dealii::SparseMatrix<double>& matrix);
 
     std::unique_ptr<Handle> handle_;
     unsigned int size_, kept_;
     std::vector<double> row_scale_, column_scale_;
     std::vector<int> rows_, columns_, kept_unknowns_;  // from 1
-    std::vector<double> values_;
-    std::vector<float> scaled_values_, left_, reduced_, work_;
+    std::vector<float> values_;                        // of the scaled matrix
+    std::vector<float> left_, reduced_, work_;
 };
 
 }  // namespace endoflow::phasefield
