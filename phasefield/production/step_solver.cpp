@@ -88,31 +88,46 @@ bool StepSolver::near_factors(const Space& space, const Vector& solution) const 
     return layer_increment(space, epsilon_, moved, solution) < farthest * epsilon_;
 }
 
+StepSolver::Ending StepSolver::iterate_with_new_factors(const Problem& problem, Vector& solution) {
+    try {
+        const Vector newton = factorise(problem, solution);
+        return iterate(problem, solution, &newton);
+    } catch (const SolverError&) {
+        if (system_.precision() == Precision::full) throw;
+        return Ending::diverged;
+    }
+}
+
 void StepSolver::solve(const Space& space, const StepNumbers& numbers, const StepHistory& history, Vector& solution) {
     const Problem problem{&space, &numbers, &history};
+    const Precision precision = system_.precision();
+    const Vector guess = solution;
+    const auto start_again = [&] {
+        solution = guess;
+        solution.update_ghost_values();
+    };
     changes_.clear();
     if (system_.has_factors() && near_factors(space, solution)) {
-        const Vector guess = solution;
         const Ending ending = iterate(problem, solution, nullptr);
         if (ending == Ending::converged) return;
-        if (ending == Ending::diverged) {
-            solution = guess;
-            solution.update_ghost_values();
-        }
+        if (ending == Ending::diverged) start_again();
     }
     for (int k = 0; k < most_factorisations; ++k) {
-        const Vector newton = factorise(problem, solution);
-        const Ending ending = iterate(problem, solution, &newton);
+        const Ending ending = iterate_with_new_factors(problem, solution);
         if (ending == Ending::converged) return;
-        if (ending == Ending::diverged) break;
+        if (system_.precision() == Precision::full && ending == Ending::diverged) break;
+        if (system_.precision() == Precision::single) start_again();
+        system_.use(Precision::full);  // from now on, if it serves
     }
     system_.forget_factors();
+    system_.use(precision);
     throw SolverError("newton-divergence", "Newton's method changed ψ by" + changes_ + " nm",
                       "use a smaller time.tolerance or phase_field.cell_size");
 }
 
 std::vector<const Vector*> StepSolver::save(Checkpoint& checkpoint) const {
     const bool there = system_.has_factors();
+    checkpoint.scalars["factors_full_precision"] = system_.precision() == Precision::full ? 1 : 0;
     checkpoint.scalars["factors_rate"] = origin_.rate;
     checkpoint.scalars["factors_profile_relaxation"] = origin_.profile_relaxation;
     checkpoint.arrays["factors_weights"] = there ? origin_.weights : std::vector<double>{};
@@ -130,6 +145,7 @@ std::size_t StepSolver::saved_vectors(const Checkpoint& checkpoint) {
 
 void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint,
                       std::vector<Vector> vectors) {
+    if (checkpoint.scalar("factors_full_precision") != 0) system_.use(Precision::full);
     if (vectors.empty()) return;
     numbers.rate = checkpoint.scalar("factors_rate");
     numbers.profile_relaxation = checkpoint.scalar("factors_profile_relaxation");

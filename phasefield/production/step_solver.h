@@ -57,6 +57,8 @@ class StepSolver {
     [[nodiscard]] Vector increment(const Problem& problem, const Vector& solution);
     /// Iterations with the present factors; `newton`: the first increment, if they were made at `solution`.
     Ending iterate(const Problem& problem, Vector& solution, const Vector* newton);
+    /// Diverged, too, when there are no factors of single precision.
+    Ending iterate_with_new_factors(const Problem& problem, Vector& solution);
 
     BendingModel model_;
     EquationPattern pattern_;

@@ -34,6 +34,8 @@ class CondensedSystem {
 
     /// As of SubdomainSystem, with its errors, also when the block of a cell's inner unknowns is singular; ghost values
     /// of `solution` are updated.
+    void use(Precision precision) { system_.use(precision); }
+    [[nodiscard]] Precision precision() const { return system_.precision(); }
     void forget_factors() { system_.forget_factors(); }
     [[nodiscard]] bool has_factors() const { return system_.has_factors(); }
     void solve(const Space& space, Vector& solution);

@@ -1,10 +1,12 @@
 #include "phasefield/solver/mumps_factors.h"
 
+#include <dmumps_c.h>
 #include <smumps_c.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 namespace endoflow::phasefield {
 
@@ -14,9 +16,16 @@ enum Job : MUMPS_INT { job_start = -1, job_end = -2, job_order = 1, job_factoris
 constexpr int spare_workspace = 60;         // per cent more than estimated
 constexpr int most_spare_workspace = 1000;  // tried before giving up
 
-}  // namespace
+void call(SMUMPS_STRUC_C& data) {
+    smumps_c(&data);
+}
 
-struct MumpsFactors::Handle {
+void call(DMUMPS_STRUC_C& data) {
+    dmumps_c(&data);
+}
+
+template <class Data>
+struct Handle {
     Handle() {
         id.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(MPI_COMM_SELF));
         id.par = 1;
@@ -31,18 +40,39 @@ struct MumpsFactors::Handle {
     /// 0, or what went wrong, negative.
     int run(Job job) {
         id.job = job;
-        smumps_c(&id);
+        call(id);
         return id.infog[0];
     }
     /// ICNTL(number) of the user's guide.
     MUMPS_INT& control(int number) { return id.icntl[number - 1]; }
 
-    SMUMPS_STRUC_C id{};
+    Data id{};
 };
 
-MumpsFactors::MumpsFactors(const dealii::SparsityPattern& pattern, unsigned int kept)
-    : handle_(std::make_unique<Handle>()),
-      size_(static_cast<unsigned int>(pattern.n_rows())),
+template <class Real, class Data>
+class FactorsOf final : public MumpsFactors {
+  public:
+    FactorsOf(const dealii::SparsityPattern& pattern, unsigned int kept);
+
+    bool factorise(const dealii::SparseMatrix<double>& matrix, dealii::FullMatrix<double>& left) override;
+    bool reduce(const dealii::Vector<double>& right_hand_side, dealii::Vector<double>& reduced) override;
+    bool expand(const dealii::Vector<double>& kept, dealii::Vector<double>& solution) override;
+
+  private:
+    /// The sizes of rows and columns differ by many powers of ten, and pivoting compares them.
+    void scale(const dealii::SparseMatrix<double>& matrix);
+
+    Handle<Data> handle_;
+    unsigned int size_, kept_;
+    std::vector<double> row_scale_, column_scale_;
+    std::vector<int> rows_, columns_, kept_unknowns_;  // from 1
+    std::vector<Real> values_;                         // of the scaled matrix
+    std::vector<Real> left_, reduced_, work_;
+};
+
+template <class Real, class Data>
+FactorsOf<Real, Data>::FactorsOf(const dealii::SparsityPattern& pattern, unsigned int kept)
+    : size_(static_cast<unsigned int>(pattern.n_rows())),
       kept_(kept),
       row_scale_(size_, 1.0),
       column_scale_(size_, 1.0),
@@ -56,31 +86,30 @@ MumpsFactors::MumpsFactors(const dealii::SparsityPattern& pattern, unsigned int 
     }
     values_.resize(rows_.size());
     std::iota(kept_unknowns_.begin(), kept_unknowns_.end(), static_cast<int>(size_ - kept) + 1);
-    auto& id = handle_->id;
+    auto& id = handle_.id;
     id.n = static_cast<MUMPS_INT>(size_);
     id.nnz = static_cast<MUMPS_INT8>(rows_.size());
     id.irn = rows_.data();
     id.jcn = columns_.data();
     id.a = values_.data();
     id.rhs = work_.data();
-    handle_->control(6) = 0;  // no permutation of columns: pivoting finds what is not on the diagonal
-    handle_->control(7) = 2;  // approximate minimum fill: a quarter less work here than METIS
-    handle_->control(8) = 0;  // scale() does it
-    handle_->control(14) = spare_workspace;
+    handle_.control(6) = 0;  // no permutation of columns: pivoting finds what is not on the diagonal
+    handle_.control(7) = 2;  // approximate minimum fill: a quarter less work here than METIS
+    handle_.control(8) = 0;  // scale() does it
+    handle_.control(14) = spare_workspace;
     if (kept_ > 0) {
-        handle_->control(19) = 1;
+        handle_.control(19) = 1;
         id.size_schur = static_cast<MUMPS_INT>(kept_);
         id.listvar_schur = kept_unknowns_.data();
         id.schur = left_.data();
         id.redrhs = reduced_.data();
         id.lredrhs = static_cast<MUMPS_INT>(kept_);
     }
-    if (size_ > 0) handle_->run(job_order);  // after an error factorise() fails
+    if (size_ > 0) handle_.run(job_order);  // after an error factorise() fails
 }
 
-MumpsFactors::~MumpsFactors() = default;
-
-void MumpsFactors::scale(const dealii::SparseMatrix<double>& matrix) {
+template <class Real, class Data>
+void FactorsOf<Real, Data>::scale(const dealii::SparseMatrix<double>& matrix) {
     const auto invert = [](double largest) { return largest > 0 ? 1 / largest : 1; };
     std::fill(row_scale_.begin(), row_scale_.end(), 0);
     for (const auto& entry : matrix)
@@ -93,17 +122,18 @@ void MumpsFactors::scale(const dealii::SparseMatrix<double>& matrix) {
     std::transform(column_scale_.begin(), column_scale_.end(), column_scale_.begin(), invert);
     std::size_t next = 0;
     for (const auto& entry : matrix)
-        values_[next++] = static_cast<float>(entry.value() * row_scale_[entry.row()] * column_scale_[entry.column()]);
+        values_[next++] = static_cast<Real>(entry.value() * row_scale_[entry.row()] * column_scale_[entry.column()]);
 }
 
-bool MumpsFactors::factorise(const dealii::SparseMatrix<double>& matrix, dealii::FullMatrix<double>& left) {
+template <class Real, class Data>
+bool FactorsOf<Real, Data>::factorise(const dealii::SparseMatrix<double>& matrix, dealii::FullMatrix<double>& left) {
     if (size_ == 0) return true;
     scale(matrix);
 
-    int status = handle_->run(job_factorise);
-    while ((status == -8 || status == -9) && handle_->control(14) < most_spare_workspace) {
-        handle_->control(14) *= 2;
-        status = handle_->run(job_factorise);
+    int status = handle_.run(job_factorise);
+    while ((status == -8 || status == -9) && handle_.control(14) < most_spare_workspace) {
+        handle_.control(14) *= 2;
+        status = handle_.run(job_factorise);
     }
     if (status < 0) return false;
     left.reinit(kept_, kept_);
@@ -116,15 +146,16 @@ bool MumpsFactors::factorise(const dealii::SparseMatrix<double>& matrix, dealii:
     return true;
 }
 
-bool MumpsFactors::reduce(const dealii::Vector<double>& right_hand_side, dealii::Vector<double>& reduced) {
+template <class Real, class Data>
+bool FactorsOf<Real, Data>::reduce(const dealii::Vector<double>& right_hand_side, dealii::Vector<double>& reduced) {
     // The kept unknowns' residual is only a process's part of it: it does not vanish with the whole, and single
     // precision would leave a rest of it.
     const std::size_t eliminated = size_ - kept_;
     for (unsigned int i = 0; i < size_; ++i)
-        work_[i] = i < eliminated ? static_cast<float>(row_scale_[i] * right_hand_side(i)) : 0;
+        work_[i] = i < eliminated ? static_cast<Real>(row_scale_[i] * right_hand_side(i)) : 0;
     if (kept_ == 0) return true;
-    handle_->control(26) = 1;
-    const int status = handle_->run(job_solve);
+    handle_.control(26) = 1;
+    const int status = handle_.run(job_solve);
     for (unsigned int k = 0; k < kept_; ++k) {
         const auto i = static_cast<unsigned int>(eliminated + k);
         reduced(k) = right_hand_side(i) + static_cast<double>(reduced_[k]) / row_scale_[i];
@@ -132,14 +163,23 @@ bool MumpsFactors::reduce(const dealii::Vector<double>& right_hand_side, dealii:
     return status >= 0;
 }
 
-bool MumpsFactors::expand(const dealii::Vector<double>& kept, dealii::Vector<double>& solution) {
+template <class Real, class Data>
+bool FactorsOf<Real, Data>::expand(const dealii::Vector<double>& kept, dealii::Vector<double>& solution) {
     if (size_ == 0) return true;
     const std::size_t eliminated = size_ - kept_;
-    for (unsigned int i = 0; i < kept_; ++i) reduced_[i] = static_cast<float>(kept(i) / column_scale_[eliminated + i]);
-    handle_->control(26) = kept_ > 0 ? 2 : 0;
-    const int status = handle_->run(job_solve);
+    for (unsigned int i = 0; i < kept_; ++i) reduced_[i] = static_cast<Real>(kept(i) / column_scale_[eliminated + i]);
+    handle_.control(26) = kept_ > 0 ? 2 : 0;
+    const int status = handle_.run(job_solve);
     for (unsigned int i = 0; i < size_; ++i) solution(i) = column_scale_[i] * static_cast<double>(work_[i]);
     return status >= 0;
+}
+
+}  // namespace
+
+std::unique_ptr<MumpsFactors> mumps_factors(const dealii::SparsityPattern& pattern, unsigned int kept,
+                                            Precision precision) {
+    if (precision == Precision::single) return std::make_unique<FactorsOf<float, SMUMPS_STRUC_C>>(pattern, kept);
+    return std::make_unique<FactorsOf<double, DMUMPS_STRUC_C>>(pattern, kept);
 }
 
 }  // namespace endoflow::phasefield

@@ -25,8 +25,15 @@ void SubdomainSystem::reinit(const std::vector<std::vector<Index>>& cells, const
     right_hand_side_.reinit(size_);
     solution_.reinit(size_);
     shared_values_.reinit(shared_);
-    factors_ = std::make_unique<MumpsFactors>(pattern_, shared_);
+    factors_ = mumps_factors(pattern_, shared_, precision_);
     factors_valid_ = false;
+}
+
+void SubdomainSystem::use(Precision precision) {
+    if (precision == precision_) return;
+    precision_ = precision;
+    factors_valid_ = false;
+    if (factors_) factors_ = mumps_factors(pattern_, shared_, precision_);
 }
 
 void SubdomainSystem::number(const std::vector<std::vector<Index>>& cells, const dealii::IndexSet& owned,

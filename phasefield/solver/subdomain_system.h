@@ -29,6 +29,9 @@ class SubdomainSystem {
     void add(std::size_t cell, const dealii::FullMatrix<double>& matrix, const dealii::Vector<double>& right_hand_side);
     void add(std::size_t cell, const dealii::Vector<double>& right_hand_side);
 
+    /// Of the next factors; single at first.
+    void use(Precision precision);
+    [[nodiscard]] Precision precision() const { return precision_; }
     void forget_factors() { factors_valid_ = false; }
     [[nodiscard]] bool has_factors() const { return factors_valid_; }
     [[nodiscard]] unsigned int factorisations() const { return factorisations_; }
@@ -60,6 +63,7 @@ class SubdomainSystem {
     dealii::SparsityPattern pattern_;
     dealii::SparseMatrix<double> matrix_;
     dealii::Vector<double> right_hand_side_, solution_, shared_values_;
+    Precision precision_ = Precision::single;
     std::unique_ptr<MumpsFactors> factors_;
     InterfaceSystem interface_;
     bool factors_valid_ = false;

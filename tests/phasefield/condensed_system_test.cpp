@@ -191,6 +191,9 @@ TEST_CASE("a condensed system has the same solution", "[condensation]") {
         CHECK(problem.difference() < single_round_off);
         CHECK(problem.refined_difference() < round_off);
         CHECK(problem.difference_with_old_factors() < single_round_off);
+        problem.condensed.use(Precision::full);
+        CHECK(problem.difference() < round_off);
+        CHECK(problem.difference_with_old_factors() < round_off);
     }
 }
 
