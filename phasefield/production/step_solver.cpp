@@ -115,9 +115,12 @@ void StepSolver::solve(const Space& space, const StepNumbers& numbers, const Ste
     for (int k = 0; k < most_factorisations; ++k) {
         const Ending ending = iterate_with_new_factors(problem, solution);
         if (ending == Ending::converged) return;
-        if (system_.precision() == Precision::full && ending == Ending::diverged) break;
-        if (system_.precision() == Precision::single) start_again();
-        system_.use(Precision::full);  // from now on, if it serves
+        if (system_.precision() == Precision::single) {
+            start_again();
+            system_.use(Precision::full);  // from now on, if it serves
+        } else if (ending == Ending::diverged) {
+            break;
+        }
     }
     system_.forget_factors();
     system_.use(precision);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 #include <vector>
 
 namespace endoflow::phasefield {
@@ -49,9 +50,11 @@ struct Handle {
     Data id{};
 };
 
-template <class Real, class Data>
+template <class Data>
 class FactorsOf final : public MumpsFactors {
   public:
+    using Real = std::remove_pointer_t<decltype(Data::a)>;
+
     FactorsOf(const dealii::SparsityPattern& pattern, unsigned int kept);
 
     bool factorise(const dealii::SparseMatrix<double>& matrix, dealii::FullMatrix<double>& left) override;
@@ -70,8 +73,8 @@ class FactorsOf final : public MumpsFactors {
     std::vector<Real> left_, reduced_, work_;
 };
 
-template <class Real, class Data>
-FactorsOf<Real, Data>::FactorsOf(const dealii::SparsityPattern& pattern, unsigned int kept)
+template <class Data>
+FactorsOf<Data>::FactorsOf(const dealii::SparsityPattern& pattern, unsigned int kept)
     : size_(static_cast<unsigned int>(pattern.n_rows())),
       kept_(kept),
       row_scale_(size_, 1.0),
@@ -108,8 +111,8 @@ FactorsOf<Real, Data>::FactorsOf(const dealii::SparsityPattern& pattern, unsigne
     if (size_ > 0) handle_.run(job_order);  // after an error factorise() fails
 }
 
-template <class Real, class Data>
-void FactorsOf<Real, Data>::scale(const dealii::SparseMatrix<double>& matrix) {
+template <class Data>
+void FactorsOf<Data>::scale(const dealii::SparseMatrix<double>& matrix) {
     const auto invert = [](double largest) { return largest > 0 ? 1 / largest : 1; };
     std::fill(row_scale_.begin(), row_scale_.end(), 0);
     for (const auto& entry : matrix)
@@ -125,8 +128,8 @@ void FactorsOf<Real, Data>::scale(const dealii::SparseMatrix<double>& matrix) {
         values_[next++] = static_cast<Real>(entry.value() * row_scale_[entry.row()] * column_scale_[entry.column()]);
 }
 
-template <class Real, class Data>
-bool FactorsOf<Real, Data>::factorise(const dealii::SparseMatrix<double>& matrix, dealii::FullMatrix<double>& left) {
+template <class Data>
+bool FactorsOf<Data>::factorise(const dealii::SparseMatrix<double>& matrix, dealii::FullMatrix<double>& left) {
     if (size_ == 0) return true;
     scale(matrix);
 
@@ -146,8 +149,8 @@ bool FactorsOf<Real, Data>::factorise(const dealii::SparseMatrix<double>& matrix
     return true;
 }
 
-template <class Real, class Data>
-bool FactorsOf<Real, Data>::reduce(const dealii::Vector<double>& right_hand_side, dealii::Vector<double>& reduced) {
+template <class Data>
+bool FactorsOf<Data>::reduce(const dealii::Vector<double>& right_hand_side, dealii::Vector<double>& reduced) {
     // The kept unknowns' residual is only a process's part of it: it does not vanish with the whole, and single
     // precision would leave a rest of it.
     const std::size_t eliminated = size_ - kept_;
@@ -163,8 +166,8 @@ bool FactorsOf<Real, Data>::reduce(const dealii::Vector<double>& right_hand_side
     return status >= 0;
 }
 
-template <class Real, class Data>
-bool FactorsOf<Real, Data>::expand(const dealii::Vector<double>& kept, dealii::Vector<double>& solution) {
+template <class Data>
+bool FactorsOf<Data>::expand(const dealii::Vector<double>& kept, dealii::Vector<double>& solution) {
     if (size_ == 0) return true;
     const std::size_t eliminated = size_ - kept_;
     for (unsigned int i = 0; i < kept_; ++i) reduced_[i] = static_cast<Real>(kept(i) / column_scale_[eliminated + i]);
@@ -178,8 +181,8 @@ bool FactorsOf<Real, Data>::expand(const dealii::Vector<double>& kept, dealii::V
 
 std::unique_ptr<MumpsFactors> mumps_factors(const dealii::SparsityPattern& pattern, unsigned int kept,
                                             Precision precision) {
-    if (precision == Precision::single) return std::make_unique<FactorsOf<float, SMUMPS_STRUC_C>>(pattern, kept);
-    return std::make_unique<FactorsOf<double, DMUMPS_STRUC_C>>(pattern, kept);
+    if (precision == Precision::single) return std::make_unique<FactorsOf<SMUMPS_STRUC_C>>(pattern, kept);
+    return std::make_unique<FactorsOf<DMUMPS_STRUC_C>>(pattern, kept);
 }
 
 }  // namespace endoflow::phasefield
