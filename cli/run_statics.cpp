@@ -1,11 +1,11 @@
 // endoflow-statics: what `endoflow statics` becomes.
 
-#include "boundary_integral/statics/simulation.h"
 #include "command_line.h"
 #include "engine_run.h"
 #include "shared/output/run_output.h"
 #include "shared/parameters/case_file.h"
 #include "shared/support/interruption.h"
+#include "statics/simulation.h"
 
 namespace endoflow::cli {
 

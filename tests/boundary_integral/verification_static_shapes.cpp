@@ -8,11 +8,11 @@
 
 #include "boundary_integral/flow/box_flow.h"
 #include "boundary_integral/flow/free_space_flow.h"
-#include "boundary_integral/statics/sampled_curve.h"
-#include "boundary_integral/statics/stationary_state.h"
-#include "boundary_integral/statics/vesicle_state.h"
 #include "curves.h"
 #include "shared/geometry/observables.h"
+#include "statics/sampled_curve.h"
+#include "statics/stationary_state.h"
+#include "statics/vesicle_state.h"
 
 namespace {
 

@@ -2,9 +2,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "boundary_integral/statics/sampled_curve.h"
-#include "boundary_integral/statics/stationary_state.h"
 #include "shared/geometry/axisymmetric_spline.h"
+#include "statics/sampled_curve.h"
+#include "statics/stationary_state.h"
 
 using namespace endoflow;
 using namespace endoflow::statics;

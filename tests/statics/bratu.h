@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "boundary_integral/statics/boundary_value_problem.h"
+#include "statics/boundary_value_problem.h"
 
 /// Bratu's problem y'' + p e^y = 0, y(0) = y(1) = 0: solutions in closed form and a fold at p = 3.513830719125…
 inline endoflow::statics::BoundaryValueProblem bratu_problem() {

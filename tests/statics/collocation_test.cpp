@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "boundary_integral/statics/newton.h"
 #include "bratu.h"
+#include "statics/newton.h"
 
 using namespace endoflow::statics;
 

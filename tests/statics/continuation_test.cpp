@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "boundary_integral/statics/continuation.h"
 #include "bratu.h"
+#include "statics/continuation.h"
 
 using namespace endoflow::statics;
 

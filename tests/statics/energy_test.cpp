@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-#include "boundary_integral/statics/stationary_state.h"
+#include "statics/stationary_state.h"
 
 using namespace endoflow;
 using namespace endoflow::statics;

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <sstream>
 
-#include "boundary_integral/statics/sampled_curve.h"
-#include "boundary_integral/statics/stationary_state.h"
 #include "shared/geometry/observables.h"
+#include "statics/sampled_curve.h"
+#include "statics/stationary_state.h"
 
 using namespace endoflow;
 using namespace endoflow::statics;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "boundary_integral/statics/vesicle_state.h"
 #include "shared/support/error.h"
+#include "statics/vesicle_state.h"
 
 using namespace endoflow;
 using namespace endoflow::statics;

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "boundary_integral/statics/linearised_collocation.h"
+#include "statics/linearised_collocation.h"
 
 namespace endoflow::statics {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "boundary_integral/statics/continuation.h"
-#include "boundary_integral/statics/shape_equations.h"
 #include "shared/support/error.h"
+#include "statics/continuation.h"
+#include "statics/shape_equations.h"
 
 namespace endoflow::statics {
 

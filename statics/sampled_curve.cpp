@@ -1,4 +1,4 @@
-#include "boundary_integral/statics/sampled_curve.h"
+#include "statics/sampled_curve.h"
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "boundary_integral/statics/shape_equations.h"
+#include "statics/shape_equations.h"
 
 namespace endoflow::statics {
 

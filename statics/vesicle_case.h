@@ -1,7 +1,7 @@
 #pragma once
 
-#include "boundary_integral/statics/vesicle_state.h"
 #include "shared/parameters/parameters.h"
+#include "statics/vesicle_state.h"
 
 namespace endoflow::statics {
 

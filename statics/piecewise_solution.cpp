@@ -1,4 +1,4 @@
-#include "boundary_integral/statics/piecewise_solution.h"
+#include "statics/piecewise_solution.h"
 
 #include <algorithm>
 #include <cmath>

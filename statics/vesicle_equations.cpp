@@ -1,9 +1,9 @@
-#include "boundary_integral/statics/vesicle_equations.h"
+#include "statics/vesicle_equations.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "boundary_integral/statics/dual_system.h"
+#include "statics/dual_system.h"
 
 namespace endoflow::statics {
 

@@ -1,4 +1,4 @@
-#include "boundary_integral/statics/spheroid.h"
+#include "statics/spheroid.h"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/roots.hpp>

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "boundary_integral/statics/boundary_value_problem.h"
-#include "boundary_integral/statics/dual.h"
+#include "statics/boundary_value_problem.h"
+#include "statics/dual.h"
 
 namespace endoflow::statics {
 

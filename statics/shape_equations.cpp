@@ -1,13 +1,13 @@
-#include "boundary_integral/statics/shape_equations.h"
+#include "statics/shape_equations.h"
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <numbers>
 
-#include "boundary_integral/statics/dual_system.h"
 #include "shared/model/double_well.h"
 #include "shared/model/initial_condition.h"
+#include "statics/dual_system.h"
 
 namespace endoflow::statics {
 

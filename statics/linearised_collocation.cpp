@@ -1,4 +1,4 @@
-#include "boundary_integral/statics/linearised_collocation.h"
+#include "statics/linearised_collocation.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "boundary_integral/statics/newton.h"
+#include "statics/newton.h"
 
 #include <cmath>
 #include <stdexcept>

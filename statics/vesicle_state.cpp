@@ -1,4 +1,4 @@
-#include "boundary_integral/statics/vesicle_state.h"
+#include "statics/vesicle_state.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "boundary_integral/statics/spheroid.h"
 #include "shared/support/error.h"
+#include "statics/spheroid.h"
 
 namespace endoflow::statics {
 

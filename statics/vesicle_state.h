@@ -1,8 +1,8 @@
 #pragma once
 
-#include "boundary_integral/statics/continuation.h"
-#include "boundary_integral/statics/stationary_state.h"
-#include "boundary_integral/statics/vesicle_equations.h"
+#include "statics/continuation.h"
+#include "statics/stationary_state.h"
+#include "statics/vesicle_equations.h"
 
 namespace endoflow::statics {
 

@@ -1,4 +1,4 @@
-#include "boundary_integral/statics/state_writer.h"
+#include "statics/state_writer.h"
 
 #include <fmt/format.h>
 

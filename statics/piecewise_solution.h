@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "boundary_integral/statics/boundary_value_problem.h"
-#include "boundary_integral/statics/gauss_rule.h"
+#include "statics/boundary_value_problem.h"
+#include "statics/gauss_rule.h"
 
 namespace endoflow::statics {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "boundary_integral/statics/piecewise_solution.h"
-#include "boundary_integral/statics/vesicle_state.h"
 #include "shared/geometry/membrane_curve.h"
 #include "shared/parameters/parameters.h"
+#include "statics/piecewise_solution.h"
+#include "statics/vesicle_state.h"
 
 namespace endoflow::statics {
 

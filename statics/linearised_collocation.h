@@ -4,7 +4,7 @@
 #include <Eigen/SparseLU>
 #include <vector>
 
-#include "boundary_integral/statics/piecewise_solution.h"
+#include "statics/piecewise_solution.h"
 
 namespace endoflow::statics {
 

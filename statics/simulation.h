@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "boundary_integral/statics/vesicle_state.h"
 #include "shared/output/run_output.h"
+#include "statics/vesicle_state.h"
 
 namespace endoflow::statics {
 

@@ -1,12 +1,12 @@
-#include "boundary_integral/statics/vesicle_simulation.h"
+#include "statics/vesicle_simulation.h"
 
 #include <numbers>
 
-#include "boundary_integral/statics/sampled_curve.h"
-#include "boundary_integral/statics/state_writer.h"
-#include "boundary_integral/statics/vesicle_case.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
+#include "statics/sampled_curve.h"
+#include "statics/state_writer.h"
+#include "statics/vesicle_case.h"
 
 namespace endoflow::statics {
 

@@ -1,4 +1,4 @@
-#include "boundary_integral/statics/continuation.h"
+#include "statics/continuation.h"
 
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>

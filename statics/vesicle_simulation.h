@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "boundary_integral/statics/simulation.h"
+#include "statics/simulation.h"
 
 namespace endoflow::statics {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "boundary_integral/statics/newton.h"
+#include "statics/newton.h"
 
 namespace endoflow::statics {
 

@@ -1,4 +1,4 @@
-#include "boundary_integral/statics/stationary_state.h"
+#include "statics/stationary_state.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "boundary_integral/statics/sampled_curve.h"
+#include "statics/sampled_curve.h"
 
 namespace endoflow::statics {
 

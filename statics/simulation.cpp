@@ -1,19 +1,19 @@
-#include "boundary_integral/statics/simulation.h"
+#include "statics/simulation.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "boundary_integral/statics/sampled_curve.h"
-#include "boundary_integral/statics/state_writer.h"
-#include "boundary_integral/statics/stationary_state.h"
-#include "boundary_integral/statics/vesicle_case.h"
-#include "boundary_integral/statics/vesicle_simulation.h"
 #include "shared/parameters/parameter_table.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
 #include "shared/support/nearest_word.h"
+#include "statics/sampled_curve.h"
+#include "statics/state_writer.h"
+#include "statics/stationary_state.h"
+#include "statics/vesicle_case.h"
+#include "statics/vesicle_simulation.h"
 
 namespace endoflow::statics {
 

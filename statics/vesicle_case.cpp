@@ -1,12 +1,12 @@
-#include "boundary_integral/statics/vesicle_case.h"
+#include "statics/vesicle_case.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "boundary_integral/statics/spheroid.h"
 #include "shared/model/bending_model.h"
 #include "shared/model/initial_condition.h"
 #include "shared/support/error.h"
+#include "statics/spheroid.h"
 
 namespace endoflow::statics {
 

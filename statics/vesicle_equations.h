@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "boundary_integral/statics/boundary_value_problem.h"
+#include "statics/boundary_value_problem.h"
 
 namespace endoflow::statics {
 

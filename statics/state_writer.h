@@ -1,10 +1,10 @@
 #pragma once
 
-#include "boundary_integral/statics/continuation.h"
 #include "shared/geometry/membrane_curve.h"
 #include "shared/model/bending_model.h"
 #include "shared/output/run_output.h"
 #include "shared/parameters/parameter_table.h"
+#include "statics/continuation.h"
 
 namespace endoflow::statics {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "boundary_integral/statics/boundary_value_problem.h"
 #include "shared/model/bending_model.h"
 #include "shared/parameters/parameters.h"
+#include "statics/boundary_value_problem.h"
 
 namespace endoflow::statics {
 

@@ -1,4 +1,4 @@
-#include "boundary_integral/statics/gauss_rule.h"
+#include "statics/gauss_rule.h"
 
 #include <Eigen/LU>
 #include <boost/math/special_functions/legendre.hpp>
