@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "boundary_integral/driver/history_recorder.h"
+#include "boundary_integral/evolution/stiff_integrator.h"
+
+namespace endoflow::boundary_integral {
+
+/// The events of a run: "budding" when the neck falls below budding_neck_radius, "neck_closed" when it falls below
+/// boundary_integral.neck_closed_radius.
+class NeckEvents {
+  public:
+    NeckEvents(const Parameters& parameters, const MembraneDynamics& dynamics, RunOutput& output);
+
+    /// Records the events inside the integrator's last step, each with a row of the history. Says when one ends the
+    /// run.
+    [[nodiscard]] std::optional<ExitReason> look(const StiffIntegrator& integrator, HistoryRecorder& history);
+
+    void save(Checkpoint& checkpoint) const { checkpoint.scalars["budded"] = budded_ ? 1.0 : 0.0; }
+    void restore(const Checkpoint& checkpoint) { budded_ = checkpoint.scalar("budded") != 0.0; }
+
+  private:
+    const Parameters& parameters_;
+    const MembraneDynamics& dynamics_;
+    RunOutput& output_;
+    bool budded_ = false;
+
+    void record(const char* name, double time, const StiffIntegrator& integrator, HistoryRecorder& history);
+};
+
+}  // namespace endoflow::boundary_integral

@@ -1,0 +1,75 @@
+#include "boundary_integral/driver/output_series.h"
+
+#include <algorithm>
+
+#include "boundary_integral/fields/field_grid.h"
+#include "shared/output/output_times.h"
+
+namespace endoflow::boundary_integral {
+
+namespace {
+
+constexpr Index shape_points_per_element = 8;
+
+FieldIndex field_index(const RunOutput& output) {
+    const RunDirectory directory{output.directory()};
+    return output.restart_point() ? FieldIndex(directory, output.restart_point()->time_us) : FieldIndex(directory);
+}
+
+bool reached(double time, const StiffIntegrator& integrator) {
+    return time <= integrator.time() * (1.0 + same_time);
+}
+
+Eigen::VectorXd state_at(double time, const StiffIntegrator& integrator) {
+    return time < integrator.time() ? integrator.state_at(time) : integrator.state();
+}
+
+}  // namespace
+
+OutputSeries::OutputSeries(const Parameters& parameters, const MembraneDynamics& dynamics, RunOutput& output)
+    : parameters_(parameters),
+      dynamics_(dynamics),
+      output_(output),
+      start_(output.restart_point() ? output.restart_point()->time_us : 0.0),
+      sampler_(dynamics.space(), shape_points_per_element * dynamics.space().elements()),
+      fields_(field_index(output)) {}
+
+bool OutputSeries::writes_fields() const {
+    return parameters_.output.field_interval > 0.0 && dynamics_.box() != nullptr;
+}
+
+void OutputSeries::write_initial(const Eigen::VectorXd& y) {
+    if (last_shape_ < 0.0) write_shape(0.0, y);
+    if (!output_.restart_point() && writes_fields()) write_fields(0.0, y);
+}
+
+void OutputSeries::write_until_now(const StiffIntegrator& integrator) {
+    for (double time = next_shape_time(); reached(time, integrator); time = next_shape_time())
+        write_shape(time, state_at(time, integrator));
+    if (!writes_fields()) return;
+    for (double time = next_field_time(); reached(time, integrator); time = next_field_time())
+        write_fields(time, state_at(time, integrator));
+}
+
+double OutputSeries::next_shape_time() const {
+    return next_multiple(parameters_.output.shape_interval, std::max(start_, last_shape_));
+}
+
+double OutputSeries::next_field_time() const {
+    return next_multiple(parameters_.output.field_interval, std::max(start_, fields_.latest().value_or(0.0)));
+}
+
+void OutputSeries::write_shape(double time, const Eigen::VectorXd& y) {
+    const PhaseTimer timer(output_, "shapes");
+    output_.write_shape(time, sampler_(dynamics_.evaluate(y)));
+    last_shape_ = time;
+}
+
+void OutputSeries::write_fields(double time, const Eigen::VectorXd& y) {
+    const PhaseTimer timer(output_, "fields");
+    const QuadGrid grid =
+        field_grid(parameters_, dynamics_, dynamics_.evaluate(y), parameters_.boundary_integral.field_spacing);
+    fields_.add(time, vtu_text(grid));
+}
+
+}  // namespace endoflow::boundary_integral

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "boundary_integral/evolution/membrane_dynamics.h"
+#include "boundary_integral/evolution/observation.h"
+#include "boundary_integral/evolution/stiff_integrator.h"
+#include "shared/output/field_index.h"
+#include "shared/output/run_output.h"
+
+namespace endoflow::boundary_integral {
+
+/// shapes.h5 at multiples of output.shape_interval, fields/ at multiples of output.field_interval. After a restart the
+/// multiples before its beginning are past, whatever the intervals were.
+class OutputSeries {
+  public:
+    OutputSeries(const Parameters& parameters, const MembraneDynamics& dynamics, RunOutput& output);
+
+    /// Shape and fields of the initial state, when the run is not a restart.
+    void write_initial(const Eigen::VectorXd& y);
+
+    /// Everything due inside the integrator's last step.
+    void write_until_now(const StiffIntegrator& integrator);
+
+    void save(Checkpoint& checkpoint) const { checkpoint.scalars["last_shape"] = last_shape_; }
+    void restore(const Checkpoint& checkpoint) { last_shape_ = checkpoint.scalar("last_shape"); }
+
+  private:
+    const Parameters& parameters_;
+    const MembraneDynamics& dynamics_;
+    RunOutput& output_;
+    double start_;  // µs, of this part of the run
+    CurveSampler sampler_;
+    FieldIndex fields_;
+    double last_shape_ = -1.0;  // µs; negative before the first one
+
+    [[nodiscard]] bool writes_fields() const;
+    [[nodiscard]] double next_shape_time() const;
+    [[nodiscard]] double next_field_time() const;
+    void write_shape(double time, const Eigen::VectorXd& y);
+    void write_fields(double time, const Eigen::VectorXd& y);
+};
+
+}  // namespace endoflow::boundary_integral

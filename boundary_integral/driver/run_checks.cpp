@@ -1,0 +1,30 @@
+#include "boundary_integral/driver/run_checks.h"
+
+#include <fmt/format.h>
+
+#include "shared/support/error.h"
+
+namespace endoflow::boundary_integral {
+
+void check_walls(const ShapeIntegrals& shape, const DomainParameters& domain, double time) {
+    if (domain.kind != DomainKind::box || shape.wall_distance >= domain.wall_clearance) return;
+    throw SolverError("membrane-near-wall",
+                      fmt::format("the membrane is {:.6f} nm from a wall at t = {:.6f} µs, nearer than "
+                                  "domain.wall_clearance",
+                                  shape.wall_distance, time),
+                      "enlarge domain.height or move domain.membrane_height");
+}
+
+void check_stiffness(const std::vector<double>& concentrations, const BendingModel& model, double time) {
+    for (const double c : concentrations) {
+        if (model.stiffness(c).value > 0.0) continue;
+        throw SolverError("negative-stiffness",
+                          fmt::format("the law of membrane.constitutive_law gives no positive bending stiffness at "
+                                      "c = {:.6f}, beside the edge of the coat, at t = {:.6f} µs",
+                                      c, time),
+                          "bring membrane.bending_stiffness and bending_stiffness_coated nearer to each other, or "
+                          "choose another membrane.constitutive_law");
+    }
+}
+
+}  // namespace endoflow::boundary_integral

@@ -1,0 +1,128 @@
+#include "boundary_integral/driver/run_loop.h"
+
+#include <memory>
+
+#include "boundary_integral/driver/history_recorder.h"
+#include "boundary_integral/driver/integrator_checkpoint.h"
+#include "boundary_integral/driver/neck_events.h"
+#include "boundary_integral/driver/output_series.h"
+#include "shared/support/interruption.h"
+
+namespace endoflow::boundary_integral {
+
+namespace {
+
+constexpr double smallest_step = 1e-14;  // µs
+
+class RunLoop {
+  public:
+    RunLoop(const Parameters& parameters, RunOutput& output)
+        : parameters_(parameters),
+          output_(output),
+          dynamics_(parameters),
+          history_(parameters, dynamics_, output),
+          events_(parameters, dynamics_, output),
+          series_(parameters, dynamics_, output),
+          integrator_(problem(), start(), {parameters.time.max_step, smallest_step}) {}
+
+    ExitReason execute() {
+        series_.write_initial(integrator_.state());
+        while (integrator_.time() < parameters_.time.end) {
+            resume_ = make_checkpoint();
+            if (interruption_signal() != 0) return stop(ExitReason::interrupted);
+            if (output_.checkpoint_due()) output_.write_checkpoint(resume_);
+            advance();
+            series_.write_until_now(integrator_);
+            if (const auto reason = events_.look(integrator_, history_)) return stop(*reason);
+            history_.record(integrator_.time(), dynamics_.evaluate(integrator_.state(), operators_),
+                            integrator_.last_order());
+        }
+        return stop(ExitReason::done);
+    }
+
+  private:
+    const Parameters& parameters_;
+    RunOutput& output_;
+    MembraneDynamics dynamics_;
+    HistoryRecorder history_;
+    NeckEvents events_;
+    OutputSeries series_;
+    std::shared_ptr<const MobilityOperators> operators_;  // of the step's predicted shape
+    Evaluation latest_;                                   // of the last rate the integrator asked for
+    StiffIntegrator integrator_;
+    Checkpoint resume_;  // of the time before the last step
+    long rejected_ = 0;
+
+    // The last step may have been cut short by time.end or end at an event: the checkpoint of the time before it lets a
+    // restart make the steps that a run without this end makes.
+    [[nodiscard]] Checkpoint make_checkpoint() const {
+        Checkpoint checkpoint;
+        save(integrator_.history(), checkpoint);
+        history_.save(checkpoint);
+        events_.save(checkpoint);
+        series_.save(checkpoint);
+        return checkpoint;
+    }
+
+    StepHistory start() {
+        if (const auto& checkpoint = output_.restart_point()) {
+            history_.restore(*checkpoint);
+            events_.restore(*checkpoint);
+            series_.restore(*checkpoint);
+            return restored_history(*checkpoint, dynamics_.size(), output_.directory().string());
+        }
+        const Eigen::VectorXd initial = dynamics_.initial_vector();
+        const Evaluation evaluation = dynamics_.evaluate(initial);
+        history_.start(evaluation);
+        return StepHistory::start(0.0, parameters_.time.initial_step, initial, evaluation.rate);
+    }
+
+    StiffProblem problem() {
+        StiffProblem problem;
+        problem.begin_step = [this](const Eigen::VectorXd& predicted) {
+            const PhaseTimer timer(output_, "flow operators");
+            operators_ = dynamics_.operators(predicted);
+        };
+        problem.rate = [this](const Eigen::VectorXd& y) {
+            const PhaseTimer timer(output_, "rates");
+            latest_ = dynamics_.evaluate(y, operators_);
+            return latest_.rate;
+        };
+        problem.jacobian = [this] {
+            const PhaseTimer timer(output_, "Jacobians");
+            return dynamics_.jacobian(latest_);
+        };
+        // One unit of error: time.tolerance nm in the curve, time.tolerance in the concentration.
+        problem.error_scales =
+            dynamics_.error_scales(dynamics_.initial_vector(), parameters_.time.tolerance, parameters_.time.tolerance);
+        return problem;
+    }
+
+    void advance() {
+        integrator_.advance(parameters_.time.end);
+        const auto& statistics = integrator_.statistics();
+        const long rejected = statistics.error_test_failures + statistics.convergence_failures;
+        for (; rejected_ < rejected; ++rejected_) output_.count_rejected_step();
+    }
+
+    ExitReason stop(ExitReason reason) {
+        output_.write_checkpoint(resume_);
+        const auto& statistics = integrator_.statistics();
+        output_.note("integrator", {{"steps", statistics.steps},
+                                    {"rate_evaluations", statistics.rates},
+                                    {"jacobians", statistics.jacobians},
+                                    {"error_test_failures", statistics.error_test_failures},
+                                    {"convergence_failures", statistics.convergence_failures}});
+        output_.note("unknowns", dynamics_.size());
+        if (const BoxFlow* box = dynamics_.box()) output_.note("wall_unknowns", box->walls().unknowns());
+        return reason;
+    }
+};
+
+}  // namespace
+
+ExitReason run_to_end(const Parameters& parameters, RunOutput& output) {
+    return RunLoop(parameters, output).execute();
+}
+
+}  // namespace endoflow::boundary_integral
