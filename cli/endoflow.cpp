@@ -25,7 +25,7 @@ const std::vector<std::string> engines{"boundary-integral", "phase-field"};
 const std::vector<std::string> commands{"run",     "compare", "converge", "sweep",  "reproduce", "movie",
                                         "revolve", "laws",    "statics",  "params", "check",     "summary"};
 
-/// Commands that are Python: comparisons/NAME.py.
+/// Commands that are Python: modules in comparisons/commands/.
 const std::vector<std::string> scripts{"compare", "converge", "sweep", "reproduce", "movie", "revolve"};
 
 constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, computed by two independent engines
@@ -128,7 +128,7 @@ int dispatch(int argc, char** argv) {
     }
     if (command == "run") return run(argc - 1, argv + 1);
     if (std::find(scripts.begin(), scripts.end(), command) != scripts.end())
-        become_python("comparisons/" + command + ".py", {argv + 2, argv + argc});
+        become_python("comparisons", {argv + 1, argv + argc});
     if (command == "statics") become_program("endoflow-statics", {argv + 2, argv + argc});
     if (command == "laws") return laws(argc - 1, argv + 1);
     if (command == "params") return params(argc - 1, argv + 1);

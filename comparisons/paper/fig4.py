@@ -2,7 +2,7 @@
 
 import numpy as np
 
-import style
+from comparisons.drawing import style
 
 from .histories import history_figure, history_names
 from .item import (

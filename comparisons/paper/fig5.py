@@ -1,11 +1,11 @@
 """Fig. 5: shapes at 20 µs for patches of different radius."""
 
-import style
+from comparisons.drawing import style
+from comparisons.drawing.pictures import Panel, gallery
 
 from . import patch_sweep
 from .item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, is_run, last_time, not_run_remarks, quick_remark
 from .patch_sweep import STATIONARY, name_of
-from .pictures import Panel, gallery
 from .snapshots import ended_because
 
 TITLE = "Fig. 5: stationary shapes by patch radius"

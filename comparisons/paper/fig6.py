@@ -2,13 +2,13 @@
 
 import numpy as np
 
-import style
+from comparisons.drawing import style
 
 style.apply()
 
 import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
 
-from sweep_plots import LOOKS  # noqa: E402
+from comparisons.drawing.sweep_plots import LOOKS  # noqa: E402
 
 from . import patch_sweep  # noqa: E402
 from .item import NECK_CLOSED, Printed, Result, not_run_remarks, quick_remark, text  # noqa: E402

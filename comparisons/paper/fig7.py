@@ -1,12 +1,12 @@
 """Fig. 7: time of budding against the patch radius."""
 
-import style
+from comparisons.drawing import style
 
 style.apply()
 
 import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
 
-from sweep_plots import LOOKS  # noqa: E402
+from comparisons.drawing.sweep_plots import LOOKS  # noqa: E402
 
 from . import patch_sweep  # noqa: E402
 from .item import PHASE_FIELD, Printed, Result, not_run_remarks, quick_remark, text  # noqa: E402

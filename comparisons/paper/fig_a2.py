@@ -1,11 +1,12 @@
 """Fig. A.2: the constitutive laws, and what they do to the standard case."""
 
-import style
+from comparisons.drawing import style
 
 style.apply()
 
 import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-from plots import legend_on_top  # noqa: E402
+
+from comparisons.drawing.plots import legend_on_top  # noqa: E402
 
 from .histories import COLOURS, history_figure  # noqa: E402
 from .item import BOUNDARY_INTEGRAL, Printed, Result, Wanted, is_run, not_run_remarks, text, value_at  # noqa: E402

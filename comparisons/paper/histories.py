@@ -1,13 +1,13 @@
 """Histories of several runs on the same axes."""
 
-import style
+from comparisons.drawing import style
 
 style.apply()
 
 import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
 import numpy as np  # noqa: E402
 
-from plots import legend_on_top  # noqa: E402
+from comparisons.drawing.plots import legend_on_top  # noqa: E402
 
 from .item import is_run  # noqa: E402
 

@@ -5,9 +5,8 @@ import subprocess
 
 import numpy as np
 
-from commands import IO_FAILURE
-from members import StudyError, last_line
-from study_command import program
+from comparisons.errors import IO_FAILURE, StudyError, last_line
+from comparisons.studies.study import program
 
 
 def constitutive_laws():

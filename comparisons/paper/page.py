@@ -1,9 +1,9 @@
 """report.html of an item, and the index of all."""
 
-import report
-import style
-from report import escaped
-from study_report import page
+from comparisons.drawing import style
+from comparisons.page import report
+from comparisons.page.report import escaped
+from comparisons.page.study_report import page
 
 from .item import is_run
 

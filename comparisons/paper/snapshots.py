@@ -1,9 +1,9 @@
 """Rows of panels for some runs at some times."""
 
-import style
+from comparisons.drawing import style
+from comparisons.drawing.pictures import Panel, fluid_arrows, gallery, membrane_arrows
 
 from .item import NECK_CLOSED, end_of, is_run, last_time
-from .pictures import Panel, fluid_arrows, gallery, membrane_arrows
 
 #: Room (nm) around the membranes in pictures that show the fluid.
 FLUID_MARGIN = 30.0

@@ -1,6 +1,6 @@
 """Table 2: how much the membrane area at 0.5 µs depends on γ, ε, τ and h (phase-field engine)."""
 
-import style
+from comparisons.drawing import style
 
 style.apply()
 

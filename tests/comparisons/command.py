@@ -14,7 +14,7 @@ import synthetic
 def compare(*arguments, **environment):
     """Run compare.py with additions to the environment; returns the finished process with its text."""
     return subprocess.run(
-        [sys.executable, str(locations.COMPARE), *map(str, arguments)],
+        [sys.executable, locations.COMPARISONS, "compare", *map(str, arguments)],
         capture_output=True,
         text=True,
         timeout=1200,

@@ -4,6 +4,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-COMPARE = ROOT / "comparisons" / "compare.py"
 
-sys.path[:0] = [str(Path(__file__).resolve().parent), str(ROOT / "comparisons"), str(ROOT / "python")]
+#: What is started as `endoflow NAME …`.
+COMPARISONS = str(ROOT / "comparisons")
+
+sys.path[:0] = [str(Path(__file__).resolve().parent), str(ROOT), str(ROOT / "python")]

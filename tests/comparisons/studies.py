@@ -39,7 +39,7 @@ class StudyTest(CommandTest):
         (self.scratch / "defaults.json").write_text(json.dumps(defaults))
 
     def arguments(self, command, *arguments):
-        return [sys.executable, str(locations.ROOT / "comparisons" / f"{command}.py"), *map(str, arguments)]
+        return [sys.executable, locations.COMPARISONS, command, *map(str, arguments)]
 
     def environment(self):
         return {**os.environ, "ENDOFLOW_PROGRAM": str(self.program)}

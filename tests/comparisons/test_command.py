@@ -55,7 +55,7 @@ class Command(CompareTest):
     def test_interrupted(self):
         output = self.scratch / "interrupted"
         process = subprocess.Popen(
-            [sys.executable, str(locations.COMPARE), str(self.a), str(self.b), "-o", str(output)],
+            [sys.executable, locations.COMPARISONS, "compare", str(self.a), str(self.b), "-o", str(output)],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,

@@ -8,8 +8,8 @@ from types import SimpleNamespace
 import locations  # noqa: F401
 from studies import StudyTest
 
-from convergence import DiffuseRun
-from study_plots import spread
+from comparisons.measures.convergence import DiffuseRun
+from comparisons.drawing.study_plots import spread
 
 EPSILON = "1.2,2.4,0.85,1.7"
 

@@ -6,7 +6,7 @@ import locations  # noqa: F401
 import numpy as np
 
 import synthetic
-from distances import SPACING, curve_distance, distance_to_polyline
+from comparisons.measures.distances import SPACING, curve_distance, distance_to_polyline
 
 
 def cap(height, rim=80.0, points=400):

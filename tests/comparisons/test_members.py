@@ -12,9 +12,9 @@ import locations  # noqa: F401
 import synthetic
 from studies import StudyTest
 
-from member_runner import shares
-from members import CONTINUE, FINISHED, FRESH, Member, directory_name, run_command, work_left
-from progress import duration, remaining
+from comparisons.studies.member_runner import shares
+from comparisons.studies.members import CONTINUE, FINISHED, FRESH, Member, directory_name, run_command, work_left
+from comparisons.studies.progress import duration, remaining
 
 
 class Names(unittest.TestCase):

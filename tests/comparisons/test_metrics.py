@@ -10,7 +10,7 @@ import numpy as np
 
 import endoflow
 import synthetic
-from metrics import NoCommonTimeError, case_differences, common_times, compare_runs, pair, patch_area
+from comparisons.measures.metrics import NoCommonTimeError, case_differences, common_times, compare_runs, pair, patch_area
 
 OFFSET = 0.5
 LABELS = ("first", "second")

@@ -16,9 +16,9 @@ from command import CommandTest
 
 
 def movie(*arguments, **environment):
-    """Run movie.py; returns the finished process with its text."""
+    """Run `movie`; returns the finished process with its text."""
     return subprocess.run(
-        [sys.executable, str(locations.ROOT / "comparisons" / "movie.py"), *map(str, arguments)],
+        [sys.executable, locations.COMPARISONS, "movie", *map(str, arguments)],
         capture_output=True,
         text=True,
         timeout=1200,
@@ -78,7 +78,7 @@ class Movie(CommandTest):
 
 class Frames(unittest.TestCase):
     def test_most_frames_show_an_early_budding(self):
-        from film import EARLY_SHARE, frame_times
+        from comparisons.drawing.film import EARLY_SHARE, frame_times
 
         with tempfile.TemporaryDirectory() as scratch:
             import endoflow

@@ -4,7 +4,7 @@ import unittest
 
 import locations  # noqa: F401
 
-from ranges import RangeError, combinations, parsed_values, parsed_variation
+from comparisons.studies.ranges import RangeError, combinations, parsed_values, parsed_variation
 
 
 class Ranges(unittest.TestCase):

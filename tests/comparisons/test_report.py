@@ -51,7 +51,7 @@ class Report(unittest.TestCase):
         )
         output = scratch / "out"
         subprocess.run(
-            [sys.executable, str(locations.COMPARE), str(a), str(b), "-o", str(output)], check=True, capture_output=True
+            [sys.executable, locations.COMPARISONS, "compare", str(a), str(b), "-o", str(output)], check=True, capture_output=True
         )
         cls.report = output / "report.html"
         cls.browser = cls.enterClassContext(Browser())
@@ -191,7 +191,7 @@ class StudyPage(unittest.TestCase):
     """The page of the studies: static, light and dark."""
 
     def test_opens_and_follows_the_theme(self):
-        from study_report import page
+        from comparisons.page.study_report import page
 
         with tempfile.TemporaryDirectory() as scratch, Browser() as browser:
             file = Path(scratch) / "report.html"

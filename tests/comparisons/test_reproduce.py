@@ -12,8 +12,8 @@ import numpy as np
 import endoflow
 import synthetic
 from endoflow.shapes import Shape
-from paper import fig6, patch_sweep
-from paper.fig4 import pinch_off_time
+from comparisons.paper import fig6, patch_sweep
+from comparisons.paper.fig4 import pinch_off_time
 from studies import StudyTest
 
 #: Keys of cases/*.toml and of the items' settings that synthetic.parameters lacks, and their values.

@@ -112,9 +112,8 @@ class RevolvedMembrane(unittest.TestCase):
         self.run_, _ = synthetic.write_pair(Path(scratch.name), count=5)
 
     def revolve(self, *arguments):
-        script = locations.ROOT / "comparisons" / "revolve.py"
         return subprocess.run(
-            [sys.executable, str(script), str(self.run_), *map(str, arguments)],
+            [sys.executable, locations.COMPARISONS, "revolve", str(self.run_), *map(str, arguments)],
             capture_output=True,
             text=True,
             timeout=1200,

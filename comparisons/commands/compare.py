@@ -1,0 +1,70 @@
+"""`endoflow compare DIR_A DIR_B [-o DIR]`: metrics.json, plots and report.html from two finished runs.
+
+Exit codes: 0 done; 2 bad command line; 4 a run cannot be read or the output cannot be written; 130 interrupted.
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+
+def parsed(arguments):
+    """The command line as a namespace: a, b, output (Path)."""
+    parser = argparse.ArgumentParser(
+        prog="endoflow compare", description="Compare two finished runs.", allow_abbrev=False
+    )
+    parser.add_argument("a", metavar="DIR_A", type=Path, help="directory of the first run (drawn on the left)")
+    parser.add_argument("b", metavar="DIR_B", type=Path, help="directory of the second run (drawn on the right)")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        type=Path,
+        default=Path("comparison"),
+        help="where to write (default: %(default)s)",
+    )
+    return parser.parse_args(arguments)
+
+
+def write_comparison(a, b, output):
+    """Compare two run directories (Path) and write everything into the directory output (Path); returns the metrics."""
+    import endoflow
+    from comparisons.drawing import plots, style
+    from comparisons.measures.metrics import compare_runs
+    from comparisons.measures.stationary import side_by_side
+    from comparisons.page.report import report_html
+
+    run_a, run_b = side_by_side(endoflow.load(a), endoflow.load(b))
+    labels = style.labels(run_a, run_b)
+    metrics = compare_runs(run_a, run_b, labels)
+    output.mkdir(parents=True, exist_ok=True)
+    (output / "metrics.json").write_text(json.dumps(metrics, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+    drawn = plots.write_all(run_a, run_b, metrics, labels, output)
+    (output / "report.html").write_text(report_html(run_a, run_b, metrics, drawn, output), encoding="utf-8")
+    return metrics
+
+
+def summary_lines(metrics, output):
+    """What the terminal shows at the end, as a list of lines."""
+    found, budding = metrics["summary"], metrics["budding"]
+    labels = [metrics["runs"][key]["label"] for key in "ab"]
+    worst = found["max_hausdorff_distance_time_us"]
+    times = ["none" if budding[key] is None else f"{budding[key]:.5g} µs" for key in ("a_us", "b_us")]
+    return [
+        f"budding time         {times[0]} ({labels[0]}), {times[1]} ({labels[1]})",
+        f"mean distance        {found['time_mean_of_mean_distance_nm']:.3g} nm",
+        f"Hausdorff distance   at most {found['max_hausdorff_distance_nm']:.3g} nm, at {worst:.4g} µs",
+        f"at the end           {found['final_mean_distance_nm']:.3g} nm on average, "
+        f"{found['final_hausdorff_distance_nm']:.3g} nm at most",
+        f"report               {output / 'report.html'}",
+    ]
+
+
+def run(options):
+    """Run the command; returns its exit code."""
+    metrics = write_comparison(options.a, options.b, options.output)
+    for warning in metrics["warnings"]:
+        print(f"endoflow compare: warning: {warning}", file=sys.stderr)
+    print("\n".join(summary_lines(metrics, options.output)))
+    return 0

@@ -1,0 +1,52 @@
+"""Options that several commands share."""
+
+import argparse
+from pathlib import Path
+
+
+def positive_integer(text):
+    """For argparse."""
+    if not text.isdigit() or int(text) == 0:
+        raise ValueError(text)
+    return int(text)
+
+
+def study_parser(study, description, output):
+    """Parser of `endoflow STUDY` with the options every study has; output: what -o defaults to, for the help."""
+    parser = argparse.ArgumentParser(
+        prog=f"endoflow {study}",
+        description=description,
+        allow_abbrev=False,
+        epilog="Finished runs are not repeated and interrupted ones are continued when the command is given again.",
+    )
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help=f"where to write (default: {output})")
+    parser.add_argument(
+        "--set", metavar="section.key=value", action="append", default=[], help="for every run; may be repeated"
+    )
+    parser.add_argument("--jobs", metavar="N", type=positive_integer, help="most runs at a time (default: all cores)")
+    parser.add_argument(
+        "--processes",
+        metavar="N",
+        type=positive_integer,
+        default=1,
+        help="MPI processes of each phase-field run (default: 1)",
+    )
+    return parser
+
+
+def case_parser(study, description):
+    """Parser of a study of one case."""
+    parser = study_parser(study, description, f"out/CASE/{study}")
+    parser.add_argument("case", metavar="CASE.toml", type=Path, help="case file")
+    parser.add_argument("--until", metavar="T", help="time.end in µs")
+    return parser
+
+
+def common_settings(options):
+    """The settings of every member, in the order in which they override the case file."""
+    return [*options.set, *([f"time.end={options.until}"] if options.until else [])]
+
+
+def output_directory(options, study):
+    """Where the study of a case is written."""
+    return options.output or Path("out") / options.case.stem / study

@@ -1,0 +1,17 @@
+"""Exit codes, and the error that ends a command with one of them."""
+
+BAD_INPUT, RUN_FAILED, IO_FAILURE, INTERRUPTED = 2, 3, 4, 130
+
+
+class StudyError(Exception):
+    """Ends the command with one line on stderr and an exit code: 2 bad input, 3 a run failed, 4 input or output."""
+
+    def __init__(self, message, exit_code):
+        super().__init__(message)
+        self.exit_code = exit_code
+
+
+def last_line(text):
+    """The last line that is not empty, without the program's name in front; "" when there is none."""
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    return lines[-1].removeprefix("endoflow: ") if lines else ""

@@ -1,0 +1,114 @@
+"""The members of a study, runs of one case that differ in some parameters: directories, state, what is left to do."""
+
+import json
+import re
+import subprocess
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from comparisons.errors import StudyError, last_line
+from comparisons.measures.metrics import flat_parameters
+
+ENGINES = ("boundary-integral", "phase-field")
+
+#: Section of the case file that only the other engine reads.
+OTHER_SECTION = {"boundary-integral": "phase_field.", "phase-field": "boundary_integral."}
+
+#: Parameters that do not change what a run computes.
+WITHOUT_EFFECT = ("case.name", "case.description", "output.checkpoint_interval")
+
+#: What is to be done with a member.
+FRESH, CONTINUE, FINISHED = "fresh", "continue", "finished"
+
+
+@dataclass(frozen=True)
+class Member:
+    """One run. case: its file; settings: ("section.key=value", …); values: {varied key: text}; parameters: resolved, by section."""
+
+    name: str
+    case: Path
+    directory: Path
+    engine: str
+    settings: tuple
+    values: dict = field(hash=False)
+    parameters: dict = field(hash=False, repr=False)
+
+    @property
+    def end(self):
+        """Simulated time at its end, µs."""
+        return float(self.parameters["time"]["end"])
+
+
+def resolved_parameters(program, case, settings):
+    """Every parameter {section: {key: value}} of a case (path) with some settings, as `endoflow check` resolves them.
+
+    Raises StudyError with the message and exit code of the check.
+    """
+    arguments = [part for setting in settings for part in ("--set", setting)]
+    try:
+        check = subprocess.run(
+            [str(program), "check", str(case), "--json", *arguments], capture_output=True, text=True, check=False
+        )
+    except OSError as error:
+        raise StudyError(f"{program}: {error.strerror}; build or install endoflow", 4) from None
+    if check.returncode:
+        raise StudyError(last_line(check.stderr) or f"{program} check failed", check.returncode)
+    return json.loads(check.stdout)
+
+
+def directory_name(values):
+    """Readable relative path of varied values {section.key: text}, e.g. "patch_radius=36/epsilon=1.2".
+
+    The section is left out unless two keys would look alike.
+    """
+    short = [key.split(".")[1] for key in values]
+    names = [key if short.count(name) > 1 else name for key, name in zip(values, short)]
+    return "/".join(re.sub(r"[^A-Za-z0-9._+=-]", "_", f"{n}={v}") for n, v in zip(names, values.values()))
+
+
+def read_record(directory):
+    """run.json of a directory as a dict, or None when there is no readable one."""
+    try:
+        record = json.loads((directory / "run.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    return record if isinstance(record, dict) and isinstance(record.get("parameters"), dict) else None
+
+
+def work_left(member):
+    """FRESH, CONTINUE or FINISHED, from what lies in the member's directory.
+
+    A run with other parameters counts for nothing, except that one that ended earlier is continued to a later end.
+    """
+    record = read_record(member.directory)
+    if record is None or record.get("engine") != member.engine:
+        return FRESH
+    differing = differing_parameters(record["parameters"], member.parameters, member.engine)
+    can_continue = any((member.directory / "checkpoint").glob("*.h5"))
+    if differing == ["time.end"] and record.get("exit_reason") == "done":
+        earlier = record["parameters"]["time"]["end"] < member.end
+        return CONTINUE if earlier and can_continue else FRESH
+    if differing:
+        return FRESH
+    if record.get("state") == "finished":
+        return FINISHED
+    return CONTINUE if can_continue and record.get("state") in ("interrupted", "running") else FRESH
+
+
+def differing_parameters(found, wanted, engine):
+    """Keys "section.key" whose values differ in two sets of parameters and matter to the engine."""
+    found, wanted = flat_parameters(found), flat_parameters(wanted)
+    return [
+        key
+        for key in dict.fromkeys([*found, *wanted])
+        if found.get(key) != wanted.get(key) and key not in WITHOUT_EFFECT and not key.startswith(OTHER_SECTION[engine])
+    ]
+
+
+def run_command(program, member, work, processes=1, mpirun=("mpirun",)):
+    """The command line (list of str) that runs a member."""
+    launcher = [*mpirun, "-n", str(processes)] if processes > 1 and member.engine == "phase-field" else []
+    settings = [part for setting in member.settings for part in ("--set", setting)]
+    restart = ["--restart"] if work == CONTINUE else []
+    run = [str(program), "run", member.engine, str(member.case), *settings, "-o", str(member.directory), *restart]
+    return launcher + run

@@ -1,0 +1,47 @@
+"""The groups of comparisons/ know only those before them, and not one module lies outside a group by accident."""
+
+import ast
+import unittest
+
+import locations
+
+GROUPS = ("measures", "studies", "drawing", "page", "paper", "commands")
+SOURCES = locations.ROOT / "comparisons"
+
+
+def imported(file):
+    """Groups of comparisons/ that a module imports, anywhere in it."""
+    found = set()
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+        if isinstance(node, ast.ImportFrom) and node.level == 0:
+            names = [f"{node.module}.{alias.name}" for alias in node.names]
+        found |= {name.split(".")[1] for name in names if name.startswith("comparisons.")}
+    return found & set(GROUPS)
+
+
+class LayoutTest(unittest.TestCase):
+    def test_groups_import_only_those_before_them(self):
+        for place, group in enumerate(GROUPS):
+            for file in (SOURCES / group).glob("*.py"):
+                with self.subTest(file=file.name):
+                    self.assertLessEqual(imported(file), set(GROUPS[: place + 1]))
+
+    def test_every_module_has_a_group(self):
+        folders = {path.parent.name for path in SOURCES.rglob("*.py")}
+        self.assertEqual(folders, {*GROUPS, "comparisons"})
+        self.assertEqual({p.stem for p in SOURCES.glob("*.py")}, {"__init__", "__main__", "errors"})
+
+    def test_only_commands_and_the_running_of_members_print(self):
+        printing = {
+            file.relative_to(SOURCES).as_posix()
+            for file in SOURCES.rglob("*.py")
+            for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "print"
+        }
+        outside = {name for name in printing if not name.startswith("commands/")}
+        self.assertEqual(outside, {"studies/study.py"})
+
+
+if __name__ == "__main__":
+    unittest.main()
