@@ -46,9 +46,12 @@ def pandoc(text, target, page_title, navigation, depth):
 
 
 def navigation(entries, current, depth):
-    """Links to all pages; entries: [(name, title)]."""
+    """Links to the pages; entries: [(name, title)]. The notes in decisions/ are listed on their own pages and the list's alone."""
     items = []
     for name, text in entries:
+        note = name.startswith("decisions/") and name != "decisions/index"
+        if note and not current.startswith("decisions/"):
+            continue
         here = ' aria-current="page"' if name == current else ""
         items.append(f'<li><a href="{"../" * depth}{name}.html"{here}>{html.escape(text)}</a></li>')
     return "<ul>" + "".join(items) + "</ul>"

@@ -8,8 +8,10 @@ ROOT = Path(__file__).resolve().parents[2]
 
 #: Order of the pages below docs/; any others follow in the order of their names.
 ORDER = (
-    "index", "install", "first-run", "case-files", "outputs", "studies", "paper", "paraview", "python", "model",
-    "boundary-integral", "phase-field", "statics", "verification", "results/standard-case", "results/smooth-case", "results/paper", "architecture", "developer-guide", "extending",
+    "index", "install", "first-run", "case-files", "parameters-biology", "outputs", "studies", "paper", "paraview", "python",
+    "model", "boundary-integral", "phase-field", "phase-field-paper", "statics", "verification", "decisions/index",
+    "results/standard-case", "results/sharp-refinement", "results/smooth-case", "results/patch-radii", "results/scheme-paper", "results/paper",
+    "architecture", "developer-guide", "extending", "roadmap",
 )  # fmt: skip
 
 #: A fenced block with an optional comment above it.
