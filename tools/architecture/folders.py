@@ -6,9 +6,9 @@ from pathlib import PurePosixPath
 def levels(graph):
     """For each folder that has others inside, the graph of what lies in it: {folder: graph}.
 
-    The names in such a graph are the folders directly inside, each with all that is in it, and the folder itself, which stands
-    for its own files. "" is the project. Where no such graph has a circle, no two folders of any depth include each other,
-    directly or by way of others.
+    The names in such a graph are the folders directly inside, "a/b/", each with all that is in it, and the folder's own modules,
+    a header and its source being one ("a/x" for "a/x.h" and "a/x.cpp"). "" is the project. Where no such graph has a circle, no
+    two folders of any depth use each other, directly or by way of others.
     """
     found = {}
     for name, targets in graph.items():
@@ -31,18 +31,18 @@ def common_folder(first, second):
 
 
 def part_of(name, folder):
-    """The folder directly inside of folder that holds the file name; folder itself for a file of its own."""
-    depth = len(PurePosixPath(folder).parts) if folder else 0
-    inner = PurePosixPath(name).parent.parts[: depth + 1]
-    return "/".join(inner)
+    """The folder directly inside of folder that holds the file name, "a/b/"; the module "a/x" for a file of folder's own."""
+    parts = PurePosixPath(name).with_suffix("").parts
+    depth = len(PurePosixPath(folder).parts) + 1 if folder else 1
+    return "/".join(parts[:depth]) + ("/" if len(parts) > depth else "")
 
 
 def circles(graph):
-    """The sets of names that reach each other (strongly connected components of two or more), as sorted lists."""
+    """The sets of names that reach each other and have a folder among them, as sorted lists."""
     names = sorted(set(graph) | {target for targets in graph.values() for target in targets})
     reach = {name: reachable(graph, name) for name in names}
     found = {tuple(sorted(n for n in reach[name] if name in reach[n])) for name in names if name in reach[name]}
-    return sorted(list(circle) for circle in found)
+    return sorted(list(circle) for circle in found if any(name.endswith("/") for name in circle))
 
 
 def reachable(graph, start):
