@@ -41,7 +41,7 @@ shape = run.shape_at(0.5 * run.shape_times[-1])
 print(f"at {shape.time:.3g} µs: {len(shape)} points, apex {shape.z[0] - shape.z[-1]:.2f} nm above the rim")
 
 # %% Area by hand: the surface of revolution of the curve, against history.csv
-area = np.trapz(2 * np.pi * shape.r, shape.s)
+area = np.sum(np.pi * (shape.r[1:] + shape.r[:-1]) * np.diff(shape.s))
 recorded = run.history_at("membrane_area_nm2", shape.time)
 print(f"area {area:.1f} nm², in history.csv {recorded:.1f} nm²")
 

@@ -25,8 +25,7 @@ def picture(a, b):
     import matplotlib.pyplot as plt
     import numpy as np
 
-    from comparisons.drawing import plots
-    from comparisons.drawing import style
+    from comparisons.drawing import plots, style
     from comparisons.measures.metrics import common_times
 
     labels, colours = style.labels(a, b), [light for light, _ in style.colours(a, b)]

@@ -1,12 +1,14 @@
 """`endoflow compare DIR_A DIR_B [-o DIR]`: metrics.json, plots and report.html from two finished runs.
 
-Exit codes: 0 done; 2 bad command line; 4 a run cannot be read or the output cannot be written; 130 interrupted.
+Exit codes: 0 done; 2 bad command line, or runs with no interval of time in common; 4 a run cannot be read or the output
+cannot be written; 130 interrupted.
 """
 
 import argparse
-import json
 import sys
 from pathlib import Path
+
+from comparisons.files import write_json, write_text
 
 
 def parsed(arguments):
@@ -39,22 +41,26 @@ def write_comparison(a, b, output):
     labels = style.labels(run_a, run_b)
     metrics = compare_runs(run_a, run_b, labels)
     output.mkdir(parents=True, exist_ok=True)
-    (output / "metrics.json").write_text(json.dumps(metrics, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+    write_json(output / "metrics.json", metrics)
     drawn = plots.write_all(run_a, run_b, metrics, labels, output)
-    (output / "report.html").write_text(report_html(run_a, run_b, metrics, drawn, output), encoding="utf-8")
+    write_text(output / "report.html", report_html(run_a, run_b, metrics, drawn, output))
     return metrics
 
 
 def summary_lines(metrics, output):
     """What the terminal shows at the end, as a list of lines."""
+    first, last = metrics["common_interval_us"]
     found, budding = metrics["summary"], metrics["budding"]
     labels = [metrics["runs"][key]["label"] for key in "ab"]
+    interpolation = found["interpolation_error_nm"]
+    share = f" (up to {interpolation:.2g} nm of it interpolation)" if interpolation else ""
     worst = found["max_hausdorff_distance_time_us"]
     times = ["none" if budding[key] is None else f"{budding[key]:.5g} µs" for key in ("a_us", "b_us")]
     return [
         f"budding time         {times[0]} ({labels[0]}), {times[1]} ({labels[1]})",
+        f"compared             at {found['times_compared']} times, {first:.4g} to {last:.4g} µs",
         f"mean distance        {found['time_mean_of_mean_distance_nm']:.3g} nm",
-        f"Hausdorff distance   at most {found['max_hausdorff_distance_nm']:.3g} nm, at {worst:.4g} µs",
+        f"Hausdorff distance   at most {found['max_hausdorff_distance_nm']:.3g} nm, at {worst:.4g} µs{share}",
         f"at the end           {found['final_mean_distance_nm']:.3g} nm on average, "
         f"{found['final_hausdorff_distance_nm']:.3g} nm at most",
         f"report               {output / 'report.html'}",

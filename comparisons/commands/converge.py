@@ -5,10 +5,10 @@ plots and report.html. Exit codes: 0 done; 2 bad command line or parameter; 3 a 
 143 interrupted (run it again to continue).
 """
 
-import json
 import sys
 
 from comparisons.errors import BAD_INPUT, RUN_FAILED, StudyError
+from comparisons.files import write_json, write_text
 from comparisons.studies.study import lock, program, report_failures, run_members
 
 from .options import case_parser, common_settings, output_directory
@@ -64,7 +64,7 @@ def study_members(options, output):
 def loaded(members):
     """(runs {name: endoflow.Run}, [problem]) of the members whose directories can be read and hold their parameters."""
     import endoflow
-    from comparisons.studies.members import differing_parameters
+    from comparisons.studies.members import covers, differing_parameters
 
     runs, problems = {}, []
     for member in members:
@@ -73,10 +73,12 @@ def loaded(members):
         except endoflow.EndoflowError as error:
             problems.append(f"{member.name} is left out: {error}")
             continue
-        if differing_parameters(run.parameters, member.parameters, member.engine):
+        if covers(run.record, member):
+            run = run.until(member.end)
+        elif differing_parameters(run.parameters, member.parameters, member.engine):
             problems.append(f"{member.name} is left out: {member.directory} holds a run with other parameters")
-        else:
-            runs[member.name] = run
+            continue
+        runs[member.name] = run
     return runs, problems
 
 
@@ -100,12 +102,12 @@ def write_results(sharp, diffuse, times, output):
     if not metrics["records"]:
         raise StudyError("nothing to compare: no run covers the times asked for; choose other --times", BAD_INPUT)
     metrics["warnings"] = problems + metrics["warnings"]
-    (output / "metrics.json").write_text(json.dumps(metrics, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+    write_json(output / "metrics.json", metrics)
     write_table(output / "converge.csv", table(metrics))
     drawn = study_plots.write_all(runs[sharp.name], kept, metrics, output)
     shared = {k: v for k, v in flat_parameters(sharp.parameters).items() if k not in diffuse[0].values}
     case = sharp.parameters["case"]["name"]
-    (output / "report.html").write_text(convergence_html(metrics, case, shared, drawn, output), encoding="utf-8")
+    write_text(output / "report.html", convergence_html(metrics, case, shared, drawn, output))
     return metrics
 
 

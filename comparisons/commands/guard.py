@@ -1,5 +1,6 @@
 """Calls a command and turns whatever it raises into one line on stderr and an exit code."""
 
+import errno
 import importlib
 import sys
 
@@ -17,9 +18,17 @@ def call(arguments):
 
     def body():
         module = importlib.import_module(f"comparisons.commands.{name}")
-        return module.run(module.parsed(arguments[1:]))
+        code = module.run(module.parsed(arguments[1:]))
+        sys.stdout.flush()
+        return code
 
     return guarded(name, body)
+
+
+def remedy(error):
+    """What to do about an OSError."""
+    full = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+    return "free some space and repeat the command" if full else "choose another directory with -o"
 
 
 def guarded(command, body):
@@ -36,18 +45,18 @@ def guarded(command, body):
 
         try:
             return body()
-        except RangeError as error:
+        except (RangeError, NoCommonTimeError) as error:
             return complain(error, BAD_INPUT)
         except StudyError as error:
             return complain(error, error.exit_code)
-        except (EndoflowError, NoCommonTimeError) as error:
+        except EndoflowError as error:
             return complain(error, IO_FAILURE)
     except KeyboardInterrupt:
         return INTERRUPTED
     except ImportError as error:
         return complain(f"{error}; install python3-numpy python3-scipy python3-h5py python3-matplotlib", IO_FAILURE)
     except OSError as error:
-        return complain(f"{error.filename}: {error.strerror}; choose another directory with -o", IO_FAILURE)
+        return complain(f"{error.filename or 'standard output'}: {error.strerror}; {remedy(error)}", IO_FAILURE)
     except Exception as error:  # a user never meets a stack trace; what is wrong here is ours
         problem = f"{type(error).__name__}: {error}".splitlines()[0]
         return complain(f"unexpected {problem}; please report this with the command line", IO_FAILURE)

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from comparisons import ROOT
 from comparisons.errors import RUN_FAILED, StudyError
+from comparisons.files import write_text
 from comparisons.studies.study import lock, program, run_members
 
 from .options import study_parser
@@ -161,7 +162,7 @@ def write_item(item, runs, options, output):
     for name, (_, figure) in result.figures.items():
         save(figure, directory, name)
     text = page.item_html(item, module.TITLE, result, runs, options.quick, directory)
-    (directory / "report.html").write_text(text, encoding="utf-8")
+    write_text(directory / "report.html", text)
     return result
 
 
@@ -186,6 +187,6 @@ def run(options):
         for item in chosen(options):
             result = write_item(item, runs_of(item, asked, found), options, output)
             print("\n".join(page.summary_lines(item, result, output / item)))
-        (output / "index.html").write_text(page.index_html(output), encoding="utf-8")
+        write_text(output / "index.html", page.index_html(output))
         print(f"pages   {output / 'index.html'}")
     return RUN_FAILED if found and len(not_run(found)) == len(found) else 0

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
+from comparisons.files import write_text
+
 from .options import positive_integer
 
 #: Distance of points along the membrane (nm), and angle (degrees) between two meridians.
@@ -70,7 +72,7 @@ def run(options):
     entries = []
     for index in chosen:
         file = folder / f"membrane_{index:06d}.vtp"
-        file.write_text(polydata_text(*surface(run.shapes[index], options.angle)), encoding="ascii")
+        write_text(file, polydata_text(*surface(run.shapes[index], options.angle)))
         entries.append((run.shapes[index].time, f"membrane/{file.name}"))
     write_collection(output / "membrane.pvd", entries)
     print(f"{len(entries)} times: {output / 'membrane.pvd'}")

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 from comparisons.errors import RUN_FAILED
+from comparisons.files import write_text
 from comparisons.studies.study import lock, program, report_failures, run_members
 
 from .options import case_parser, common_settings, output_directory
@@ -65,7 +66,7 @@ def write_slurm(members, options, output):
     text = array_script(
         entries, options.case.stem, script, Path.cwd(), program(), options.processes, threads=1, jobs=options.jobs
     )
-    script.write_text(text, encoding="utf-8")
+    write_text(script, text)
     return f"{len(entries)} of {len(members)} runs left: sbatch {script}; afterwards the same command with --collect"
 
 
@@ -109,6 +110,6 @@ def run(options):
         rows = collect(members, outcomes, output)
         keys = [*members[0].values]
         drawn = sweep_plots.write_all(rows, keys, output)
-        (output / "report.html").write_text(sweep_html(rows, keys, drawn, output), encoding="utf-8")
+        write_text(output / "report.html", sweep_html(rows, keys, drawn, output))
         print("\n".join(summary_lines(rows, output)))
         return RUN_FAILED if report_failures("sweep", outcomes) else 0

@@ -8,9 +8,11 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
 import numpy as np  # noqa: E402
 from matplotlib.collections import LineCollection  # noqa: E402
 from matplotlib.ticker import LogLocator, NullFormatter  # noqa: E402
+from scipy.integrate import trapezoid  # noqa: E402
 
+from comparisons.files import named  # noqa: E402
 from comparisons.measures.extent import half_width  # noqa: E402
-from comparisons.measures.metrics import concentration_profile, last_budding  # noqa: E402
+from comparisons.measures.metrics import compared, concentration_profile, last_budding  # noqa: E402
 from comparisons.measures.time_axis import time_axis  # noqa: E402
 from endoflow.curves import resample  # noqa: E402
 
@@ -46,9 +48,11 @@ def write_all(a, b, metrics, labels, directory):
 
 def save(figure, directory, name):
     """Write a figure as directory/name.png and .svg and close it."""
-    figure.savefig(directory / f"{name}.png")
+    with named(directory / f"{name}.png"):
+        figure.savefig(directory / f"{name}.png")
     figure.set_layout_engine("none")  # keeps the layout just made
-    figure.savefig(directory / f"{name}.svg", metadata={"Date": None})
+    with named(directory / f"{name}.svg"):
+        figure.savefig(directory / f"{name}.svg", metadata={"Date": None})
     plt.close(figure)
 
 
@@ -62,7 +66,7 @@ def panel_times(metrics):
     """At most PANELS output times (µs), evenly chosen up to a little after budding or, if earlier, to the end of both runs."""
     first, last = metrics["common_interval_us"]
     wanted = np.linspace(first, min(last, 1.2 * (last_budding(metrics) or last)), PANELS + 1)[1:]
-    output_times = np.array([record["time_us"] for record in metrics["times"]])
+    output_times = np.array([record["time_us"] for record in compared(metrics["times"])])
     return output_times[np.unique(np.argmin(np.abs(output_times[:, None] - wanted), axis=0))]
 
 
@@ -190,7 +194,7 @@ def concentration(a, b, times, labels, colours):
         for run, colour, line in zip((a, b), colours, style.LINES):
             area, c = concentration_profile(run.shape_at(time))
             axes.plot(1e-3 * area, c, color=colour, **line)
-            axes.set_xlim(0, 2e-3 * max(np.trapz(c, area), 0.1 * area[-1]))
+            axes.set_xlim(0, 2e-3 * max(trapezoid(c, area), 0.1 * area[-1]))
         axes.set(ylim=(-0.05, 1.1), xlabel="area from the axis (10³ nm²)")
         axes.set_title(f"t = {time:.4g} µs")
     grid[0, 0].set_ylabel("concentration c")
@@ -260,7 +264,7 @@ def _set_value_axis(axes, values, wants_log):
 
 def distances(metrics):
     """Mean and Hausdorff distance, and the difference of c, against time."""
-    records = metrics["times"]
+    records = compared(metrics["times"])
     time = np.array([record["time_us"] for record in records])
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.4), layout="constrained")
     curves = (

@@ -5,6 +5,8 @@ import zlib
 
 import numpy as np
 
+from comparisons.files import write_text
+
 #: Bytes of one compressed block.
 BLOCK = 1 << 15
 
@@ -43,4 +45,4 @@ def write_collection(path, entries):
     """Write a .pvd file (Path) of [(time in µs, file relative to it)]."""
     lines = "".join(f'<DataSet timestep="{time:.12g}" group="" part="0" file="{file}"/>\n' for time, file in entries)
     head = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n'
-    path.write_text(f"{head}<Collection>\n{lines}</Collection>\n</VTKFile>\n", encoding="ascii")
+    write_text(path, f"{head}<Collection>\n{lines}</Collection>\n</VTKFile>\n")

@@ -164,6 +164,7 @@ def warnings(sharp, diffuse, records, times):
     for name, run in [("the sharp run", sharp), *((f"ε = {one.epsilon:g} nm", one.run) for one in diffuse)]:
         if run.record.get("state") != "finished":
             found.append(f"{name} is {run.record.get('state')}: {run.record.get('exit_reason')}")
+        found += [f"{name}: {alarm}" for alarm in run.alarms]
     for time in times:
         covered = len(at_time(records, time))
         if covered < len(diffuse):

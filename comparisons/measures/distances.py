@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.integrate import trapezoid
 from scipy.spatial import cKDTree
 
 from endoflow.curves import resample
@@ -48,4 +49,4 @@ def distance_to_polyline(points, vertices):
 
 def _average_along(values):
     """Mean over arc length of values (n,) at evenly spaced points (trapezoidal rule)."""
-    return np.trapz(values) / (len(values) - 1)
+    return trapezoid(values) / (len(values) - 1)

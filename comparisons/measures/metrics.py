@@ -3,18 +3,21 @@
 metrics.json (schema_version 1); every key ends in its unit, null stands for "does not exist" (no neck, no budding):
 
     schema_version        1
-    runs                  {"a": …, "b": …}: label, directory, engine, version, git, state, exit_reason, end_us, budding_time_us
+    runs                  {"a": …, "b": …}: label, directory, engine, version, git, state, exit_reason, end_us, budding_time_us,
+                          alarms [{name, time, value, bound, meaning, remedy}]
     common_interval_us    [first, last] time both runs have shapes for
     case_differences      [{key, a, b}]: parameters that differ, the engines' own sections left out
     warnings              [text]
     budding               {a_us, b_us, difference_us, relative_difference}
     summary               over the times both runs wrote shapes at, or all times when there are fewer than two of those:
-                          {includes_interpolated_shapes, max_hausdorff_distance_nm, max_hausdorff_distance_time_us,
+                          {times_compared, includes_interpolated_shapes, interpolation_error_nm (largest), max_hausdorff_distance_nm, max_hausdorff_distance_time_us,
                            time_mean_of_mean_distance_nm, final_mean_distance_nm, final_hausdorff_distance_nm,
                            max_relative_difference: {quantity: number}}
     times                 one record per output time of either run within the common interval:
         time_us
         interpolated              runs ("a", "b") whose shape was interpolated between two output times
+        interpolation_error_nm    what the interpolation alone is estimated to add to a distance: 0 without any, null where
+                                  a run has fewer than three shapes
         mean_distance_nm          symmetric mean distance between the curves, averaged over arc length
         hausdorff_distance_nm     symmetric Hausdorff distance
         concentration_l1_nm2      ∫ |c_a − c_b| over membrane area from the axis
@@ -28,10 +31,13 @@ difference is b − a; relative_difference is that over the mean of |a| and |b|.
 """
 
 import math
+from dataclasses import asdict
 
 import numpy as np
+from scipy.integrate import trapezoid
 
 from comparisons.measures.distances import curve_distance
+from comparisons.measures.interpolation import InterpolationError
 from endoflow.curves import area_from_axis, resample
 
 SCHEMA_VERSION = 1
@@ -55,20 +61,22 @@ PROFILE_SAMPLES = 4000
 
 
 class NoCommonTimeError(Exception):
-    """The two runs have no time in common."""
+    """The two runs have no time in common, or nothing but one moment."""
 
 
 def compare_runs(a, b, labels):
     """All metrics of two endoflow.Run objects; labels is the pair of display names. Raises NoCommonTimeError."""
     times = common_times(a, b)
-    records = [compare_at(a, b, float(time)) for time in times]
+    require_interval(a, b, times)
+    errors = [InterpolationError(run) for run in (a, b)]
+    records = [compare_at(a, b, float(time), errors) for time in times]
     differences = case_differences(a.parameters, b.parameters)
     return {
         "schema_version": SCHEMA_VERSION,
         "runs": {key: describe(run, label) for key, run, label in zip("ab", (a, b), labels)},
         "common_interval_us": [float(times[0]), float(times[-1])],
         "case_differences": differences,
-        "warnings": warnings(a, b, differences),
+        "warnings": warnings(a, b, differences) + interpolation_warnings(records),
         "budding": budding(a.event_time("budding"), b.event_time("budding")),
         "summary": summary(records),
         "times": records,
@@ -89,14 +97,26 @@ def common_times(a, b):
     return union[np.concatenate(([True], np.diff(union) > tolerance))]
 
 
-def compare_at(a, b, time):
-    """The record of metrics.json at one time (µs)."""
+def require_interval(a, b, times):
+    """Raises NoCommonTimeError for runs whose shapes share one moment only; two stationary shapes have no more."""
+    if len(times) == 1 and not a.engine == b.engine == "statics":
+        raise NoCommonTimeError(
+            f"nothing to compare: shapes of {a.directory} and {b.directory} share only t = {times[0]:g} µs; "
+            "run them longer, or write shapes more often (output.shape_interval)"
+        )
+
+
+def compare_at(a, b, time, errors=None):
+    """The record of metrics.json at one time (µs); errors: the InterpolationErrors of both runs, made where there are none."""
+    errors = errors or [InterpolationError(run) for run in (a, b)]
     shape_a, shape_b = a.shape_at(time), b.shape_at(time)
+    own_errors = [error.at(time) for error in errors]
+    own = [key for key, error in zip("ab", errors) if not error.written_at(time)]
     distance = curve_distance((shape_a.r, shape_a.z), (shape_b.r, shape_b.z))
-    own = {key for key, run in zip("ab", (a, b)) if not np.isclose(run.shape_times, time, rtol=1e-9, atol=1e-9).any()}
     return {
         "time_us": time,
-        "interpolated": sorted(own),
+        "interpolated": own,
+        "interpolation_error_nm": None if None in own_errors else sum(own_errors),
         "mean_distance_nm": distance.mean,
         "hausdorff_distance_nm": distance.hausdorff,
         **concentration_difference(shape_a, shape_b),
@@ -115,8 +135,8 @@ def concentration_difference(shape_a, shape_b):
     (area_a, c_a), (area_b, c_b) = concentration_profile(shape_a), concentration_profile(shape_b)
     area = np.linspace(0.0, min(area_a[-1], area_b[-1]), PROFILE_SAMPLES)
     gap = np.abs(np.interp(area, area_a, c_a) - np.interp(area, area_b, c_b))
-    l1 = float(np.trapz(gap, area))
-    mass = max(np.trapz(c_a, area_a), np.trapz(c_b, area_b))
+    l1 = float(trapezoid(gap, area))
+    mass = max(trapezoid(c_a, area_a), trapezoid(c_b, area_b))
     return {
         "concentration_l1_nm2": l1,
         "concentration_l1_relative": l1 / mass if mass > 0 else None,
@@ -165,20 +185,28 @@ def last_budding(metrics):
     )
 
 
-def summary(records):
-    """The summary entry of metrics.json: over the records without interpolation if there are two or more, else over all."""
+def compared(records):
+    """The records that summary and pictures are made of: without interpolation if there are two or more, else all."""
     written = [record for record in records if not record["interpolated"]]
-    records, interpolated = (written, False) if len(written) > 1 else (records, len(written) < len(records))
+    return written if len(written) > 1 else records
+
+
+def summary(records):
+    """The summary entry of metrics.json."""
+    records = compared(records)
+    errors = [record["interpolation_error_nm"] for record in records]
     times = np.array([record["time_us"] for record in records])
     mean = np.array([record["mean_distance_nm"] for record in records])
     hausdorff = np.array([record["hausdorff_distance_nm"] for record in records])
     worst = int(np.argmax(hausdorff))
     span = times[-1] - times[0]
     return {
-        "includes_interpolated_shapes": interpolated,
+        "times_compared": len(records),
+        "includes_interpolated_shapes": any(record["interpolated"] for record in records),
+        "interpolation_error_nm": None if None in errors else max(errors),
         "max_hausdorff_distance_nm": float(hausdorff[worst]),
         "max_hausdorff_distance_time_us": float(times[worst]),
-        "time_mean_of_mean_distance_nm": float(np.trapz(mean, times) / span) if span > 0 else float(mean[0]),
+        "time_mean_of_mean_distance_nm": float(trapezoid(mean, times) / span) if span > 0 else float(mean[0]),
         "final_mean_distance_nm": float(mean[-1]),
         "final_hausdorff_distance_nm": float(hausdorff[-1]),
         "max_relative_difference": {name: _largest_relative(records, name) for name in QUANTITIES},
@@ -220,7 +248,21 @@ def warnings(a, b, differences):
     for letter, run in zip("AB", (a, b)):
         if run.record.get("state") != "finished":
             found.append(f"run {letter} ({run.directory}) did not finish: its state is {run.record.get('state')!r}")
+        found += [f"run {letter} ({run.directory}): {alarm}" for alarm in run.alarms]
     return found
+
+
+def interpolation_warnings(records):
+    """A sentence about what interpolation adds to the distances where they cannot do without it."""
+    found = summary(records)
+    if not found["includes_interpolated_shapes"]:
+        return []
+    error = found["interpolation_error_nm"]
+    size = "of unknown size (fewer than three shapes)" if error is None else f"estimated as up to {error:.2g} nm"
+    return [
+        "the runs wrote shapes at different times: the distances include an interpolation error "
+        f"{size}; write shapes at equal times (output.shape_interval)"
+    ]
 
 
 def describe(run, label):
@@ -236,4 +278,5 @@ def describe(run, label):
         "exit_reason": record.get("exit_reason"),
         "end_us": float(run.history["time_us"][-1]),
         "budding_time_us": run.event_time("budding"),
+        "alarms": [asdict(alarm) for alarm in run.alarms],
     }

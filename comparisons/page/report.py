@@ -20,6 +20,7 @@ TIME_COLUMNS = (
     ("time_us", None, "t (µs)"),
     ("mean_distance_nm", None, "mean distance (nm)"),
     ("hausdorff_distance_nm", None, "Hausdorff (nm)"),
+    ("interpolation_error_nm", None, "of that, interpolation (nm)"),
     ("neck_radius_nm", "a", "neck A (nm)"),
     ("neck_radius_nm", "b", "neck B (nm)"),
     ("bud_diameter_nm", "a", "diameter A (nm)"),
@@ -169,8 +170,7 @@ def cards(metrics):
         if budding["difference_us"] is not None
         else "not in both runs"
     )
-    how = ", interpolated shapes" if found["includes_interpolated_shapes"] else ""
-    worst = f"at {setting(found['max_hausdorff_distance_time_us'], 4)} µs{how}"
+    worst = f"at {setting(found['max_hausdorff_distance_time_us'], 4)} µs{interpolation_note(found)}"
     entries = [
         (f"Budding, {labels[0]}", quantity(budding["a_us"], 4, "µs"), "neck radius below 5 nm", "ink-a"),
         (f"Budding, {labels[1]}", quantity(budding["b_us"], 4, "µs"), "neck radius below 5 nm", "ink-b"),
@@ -182,6 +182,14 @@ def cards(metrics):
         f'<div><dt>{escaped(title)}</dt><dd class="{ink}">{value}<small>{escaped(note)}</small></dd></div>'
         for title, value, note, ink in entries
     )
+
+
+def interpolation_note(found):
+    """What part of a distance may be interpolation in time, as a continuation of a sentence; found: the summary."""
+    if not found["includes_interpolated_shapes"]:
+        return ""
+    error = found["interpolation_error_nm"]
+    return ", interpolated shapes" if error is None else f"; up to {figures(error, 2)} nm of it interpolation"
 
 
 def quantity(value, digits, unit):

@@ -6,7 +6,7 @@ import numpy as np
 
 from comparisons.drawing import style
 from comparisons.measures.extent import half_width
-from comparisons.measures.metrics import last_budding
+from comparisons.measures.metrics import compared, last_budding
 from comparisons.measures.time_axis import long_after_budding, time_axis
 from endoflow.curves import resample
 
@@ -115,10 +115,10 @@ def charts(a, b, metrics):
         entries.append(
             chart(plot.title, plot.unit, lines, wants_log=plot.logarithmic, level=level, from_zero=level is not None)
         )
-    time = np.array([record["time_us"] for record in metrics["times"]])
+    records = compared(metrics["times"])
+    time = np.array([record["time_us"] for record in records])
     lines = [
-        (time, np.array([record[key] for record in metrics["times"]]))
-        for key in ("hausdorff_distance_nm", "mean_distance_nm")
+        (time, np.array([record[key] for record in records])) for key in ("hausdorff_distance_nm", "mean_distance_nm")
     ]
     entries.append(chart("Distance: Hausdorff, mean", "nm", lines, neutral=True, from_zero=True))
     return entries
@@ -151,8 +151,9 @@ def readout(a, b, metrics, times):
     for column, plot in style.HISTORY_PLOTS.items():
         values = [packed(run.history_at(column, times) * plot.factor) for run in (a, b)]
         rows.append({"title": plot.title, "unit": plot.unit, "values": values})
-    output_times = [record["time_us"] for record in metrics["times"]]
+    records = compared(metrics["times"])
+    output_times = [record["time_us"] for record in records]
     for key, title in (("mean_distance_nm", "Mean distance"), ("hausdorff_distance_nm", "Hausdorff distance")):
-        values = np.interp(times, output_times, [record[key] for record in metrics["times"]])
+        values = np.interp(times, output_times, [record[key] for record in records])
         rows.append({"title": title, "unit": "nm", "values": [packed(values)]})
     return rows

@@ -165,6 +165,7 @@ def parameters_table(parameters):
 def sweep_html(rows, keys, drawn, directory):
     """The page of a sweep: its rows (as of sweep_table) over the varied keys; drawn: {plot: title}."""
     failed = [f"{row['directory']} failed: {row['exit_reason']}" for row in rows if row["state"] == "failed"]
+    failed += [f"{row['directory']}: accuracy alarm: {row['alarms']}" for row in rows if row["alarms"]]
     heads = [column for column in rows[0] if column != "directory"]
     titles = [escaped(column.replace("_", " ")) for column in heads]
     body = report.table(titles, [("", [setting(row[column], 5) for column in heads]) for row in rows])

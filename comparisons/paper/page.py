@@ -21,7 +21,13 @@ def item_html(item, title, result, runs, quick, directory):
         ("Runs", runs_table(runs)),
     ]
     subtitle = f"{SOURCE} · {'quick' if quick else 'full'}"
-    return page(f"{COMMAND} {item}", title, subtitle, [], [], sections, directory)
+    return page(f"{COMMAND} {item}", title, subtitle, alarms(runs), [], sections, directory)
+
+
+def alarms(runs):
+    """A sentence for each alarm of the runs."""
+    found = [(name, run) for name, engines in runs.items() for run in engines.values() if is_run(run)]
+    return [f"{name}, {style.ENGINE_NAMES[run.engine]}: {alarm}" for name, run in found for alarm in run.alarms]
 
 
 def engines_of(printed):

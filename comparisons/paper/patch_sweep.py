@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+from scipy.integrate import trapezoid
 
 from endoflow.curves import area_from_axis
 
@@ -58,7 +59,7 @@ def roundness(shape, neck_index):
     """Volume of the bud above its neck over that of the sphere with the same area: 1 for a sphere."""
     r, z = shape.r[: neck_index + 1], shape.z[: neck_index + 1]
     area = area_from_axis(r, z)[-1] + np.pi * r[-1] ** 2
-    volume = abs(np.trapz(np.pi * r**2, z))
+    volume = abs(trapezoid(np.pi * r**2, z))
     return volume / (area**1.5 / (6 * np.sqrt(np.pi)))
 
 

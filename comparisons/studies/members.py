@@ -1,10 +1,10 @@
 """The members of a study, runs of one case that differ in some parameters: directories, state, what is left to do."""
 
 import json
-import re
 import subprocess
 from dataclasses import dataclass, field
 from pathlib import Path
+from urllib.parse import quote
 
 from comparisons.errors import StudyError, last_line
 from comparisons.measures.metrics import flat_parameters
@@ -59,11 +59,12 @@ def resolved_parameters(program, case, settings):
 def directory_name(values):
     """Readable relative path of varied values {section.key: text}, e.g. "patch_radius=36/epsilon=1.2".
 
-    The section is left out unless two keys would look alike.
+    The section is left out unless two keys would look alike. Letters that a path should not hold are percent-encoded, so
+    that different values have different paths.
     """
     short = [key.split(".")[1] for key in values]
     names = [key if short.count(name) > 1 else name for key, name in zip(values, short)]
-    return "/".join(re.sub(r"[^A-Za-z0-9._+=-]", "_", f"{n}={v}") for n, v in zip(names, values.values()))
+    return "/".join(f"{name}={quote(value, safe='+=')}" for name, value in zip(names, values.values()))
 
 
 def read_record(directory):
@@ -78,21 +79,32 @@ def read_record(directory):
 def work_left(member):
     """FRESH, CONTINUE or FINISHED, from what lies in the member's directory.
 
-    A run with other parameters counts for nothing, except that one that ended earlier is continued to a later end.
+    A run with other parameters counts for nothing, except that one that ended earlier is continued to a later end, and
+    that one with a later end, having come so far, holds all that an earlier end asks for.
     """
     record = read_record(member.directory)
     if record is None or record.get("engine") != member.engine:
         return FRESH
+    if covers(record, member):
+        return FINISHED
     differing = differing_parameters(record["parameters"], member.parameters, member.engine)
     can_continue = any((member.directory / "checkpoint").glob("*.h5"))
-    if differing == ["time.end"] and record.get("exit_reason") == "done":
-        earlier = record["parameters"]["time"]["end"] < member.end
-        return CONTINUE if earlier and can_continue else FRESH
-    if differing:
+    if differing and differing != ["time.end"]:
         return FRESH
-    if record.get("state") == "finished":
+    if not differing and record.get("state") == "finished":
         return FINISHED
-    return CONTINUE if can_continue and record.get("state") in ("interrupted", "running") else FRESH
+    unfinished = record.get("state") in ("interrupted", "running") or record.get("exit_reason") == "done"
+    return CONTINUE if can_continue and unfinished else FRESH
+
+
+def covers(record, member):
+    """Whether a run.json (dict, or None) is of a run that went on longer than the member and is the same otherwise."""
+    if record is None or record.get("engine") != member.engine:
+        return False
+    if differing_parameters(record["parameters"], member.parameters, member.engine) != ["time.end"]:
+        return False
+    later = record["parameters"]["time"]["end"] > member.end
+    return later and (record.get("state") == "finished" or (record.get("time_us") or 0.0) >= member.end)
 
 
 def differing_parameters(found, wanted, engine):

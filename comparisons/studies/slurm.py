@@ -2,6 +2,8 @@
 
 import shlex
 
+from comparisons.errors import BAD_INPUT, StudyError
+
 TEMPLATE = r"""#!/bin/bash
 # Runs {count} member(s) of a sweep as an array:   sbatch {script}
 # Options of sbatch may be added there, such as --time, --partition or --account. Submitting it again continues what was
@@ -12,7 +14,7 @@ TEMPLATE = r"""#!/bin/bash
 #SBATCH --ntasks={processes}
 #SBATCH --cpus-per-task={threads}
 #SBATCH --chdir={working_directory}
-#SBATCH --output={logs}/slurm-%A_%a.txt
+#SBATCH --output={logs}
 set -u
 endoflow=${{ENDOFLOW_PROGRAM:-{program}}}
 script={script}
@@ -46,21 +48,37 @@ def array_script(entries, name, script, working_directory, program, processes, t
 
     entries: [(work, directory, command line)] of the members to run; a command line is a list of str whose program is
     "$endoflow". script, working_directory, program: paths; processes of each member, threads of each process;
-    jobs: most members at a time, None for no limit.
+    jobs: most members at a time, None for no limit. Raises StudyError for paths that a line of the script cannot hold.
     """
+    logs = f"{directive(script.parent, '-o').replace('%', '%%')}/slurm-%A_%a.txt"
     return TEMPLATE.format(
         count=len(entries),
         last=len(entries) - 1,
         limit="" if jobs is None else f"%{jobs}",
-        name=shlex.quote(name),
+        name=f'"{directive(name, "the case file")}"',
         script=shlex.quote(str(script)),
-        logs=str(script.parent),
-        working_directory=str(working_directory),
+        logs=f'"{logs}"',
+        working_directory=f'"{directive(working_directory, "the working directory")}"',
         program=shlex.quote(str(program)),
         processes=processes,
         threads=threads,
         entries="\n".join(_entry(number, *entry) for number, entry in enumerate(entries)),
     )
+
+
+def directive(text, what):
+    """Text (or a path) for between double quotes in a line that starts with #SBATCH.
+
+    Raises StudyError where such a line cannot hold it: a line break ends it, a double quote the text, and a backslash in a
+    file's name switches sbatch's patterns off.
+    """
+    text = str(text)
+    if not text.isprintable() or set(text) & set('\\"'):
+        raise StudyError(
+            f"{what}: {text!r} cannot stand in a batch script; choose a name without line breaks, quotes and backslashes",
+            BAD_INPUT,
+        )
+    return text
 
 
 def _entry(number, work, directory, command):

@@ -1,15 +1,21 @@
 """sweep.csv: one row for each member of a sweep.
 
 Columns: the varied parameters (section.key), engine, state, exit_reason, time_us (reached), budding_time_us, then the
-last row of history.csv: neck_radius_nm, lateral_diameter_nm, height_nm, area_nm2, energy_pN_nm; wall_s; directory. Empty
-cells stand for "does not exist" (no neck, no budding, not run).
+last row of history.csv: neck_radius_nm, lateral_diameter_nm, height_nm, area_nm2, energy_pN_nm; alarms (names of the
+quantities that left the bounds of an accurate run, between semicolons); wall_s; directory. Empty cells stand for "does not
+exist" (no neck, no budding, not run). Of a run that went on longer than the sweep asks for, time_us and what stands in
+history.csv are those at the sweep's end, wall_s is that of the whole run.
 """
 
 import csv
 import math
 
-from comparisons.studies.members import differing_parameters, read_record
+import numpy as np
+
+from comparisons.files import named
+from comparisons.studies.members import covers, differing_parameters, read_record
 from endoflow import EndoflowError
+from endoflow.alarms import alarms_of
 from endoflow.history import read_history
 
 #: Columns of the table that come from the last row of history.csv: {column: history column}.
@@ -28,11 +34,18 @@ def row(member, outcome=None):
     outcome: of this study's run (member_runner.Outcome), None when there was none.
     """
     record = read_record(member.directory)
-    if record is not None and differing_parameters(record["parameters"], member.parameters, member.engine):
+    longer = covers(record, member)
+    if (
+        record is not None
+        and not longer
+        and differing_parameters(record["parameters"], member.parameters, member.engine)
+    ):
         record = None  # another study's run
     found = record or {}
-    budding = found.get("events", {}).get("budding")
-    state, reason = found.get("state", "not run"), found.get("exit_reason")
+    end = member.end if longer else math.inf
+    state, reason, time = found.get("state", "not run"), found.get("exit_reason"), found.get("time_us")
+    if time is not None and time > end:
+        state, reason, time = "finished", "done", end
     if outcome is not None and outcome.state == "failed":
         state, reason = "failed", (reason if state == "failed" else outcome.message)
     return {
@@ -40,29 +53,37 @@ def row(member, outcome=None):
         "engine": member.engine,
         "state": state,
         "exit_reason": reason,
-        "time_us": found.get("time_us"),
-        "budding_time_us": None if budding is None else budding["time_us"],
-        **final_values(member.directory / "history.csv" if record else None),
+        "time_us": time,
+        "budding_time_us": budding_time(found, end),
+        **final_values(member.directory / "history.csv" if record else None, end),
+        "alarms": "; ".join(alarm.name for alarm in alarms_of(found) if alarm.time <= end) or None,
         "wall_s": found.get("wall_s"),
         "directory": str(member.directory),
     }
 
 
-def final_values(path):
-    """{column of FINAL: number or None} from the last row of a history.csv (Path, or None)."""
+def budding_time(record, end):
+    """Budding time (µs) up to `end`, or None."""
+    budding = record.get("events", {}).get("budding")
+    return budding["time_us"] if budding is not None and budding["time_us"] <= end else None
+
+
+def final_values(path, end):
+    """{column of FINAL: number or None} from the last row of a history.csv (Path, or None), or at `end` (µs) if earlier."""
     try:
         history = None if path is None else read_history(path)
     except EndoflowError:
         history = None
     if history is None:
         return dict.fromkeys(FINAL)
-    last = {column: float(history[source][-1]) for column, source in FINAL.items()}
+    time = min(end, history["time_us"][-1])
+    last = {column: float(np.interp(time, history["time_us"], history[source])) for column, source in FINAL.items()}
     return {column: value if math.isfinite(value) else None for column, value in last.items()}
 
 
 def write_table(path, rows):
     """Write rows, list of {column: value}, as CSV."""
-    with open(path, "w", newline="", encoding="utf-8") as file:
+    with named(path), open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(rows[0])
         writer.writerows([cell(value) for value in entry.values()] for entry in rows)

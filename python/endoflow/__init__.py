@@ -10,6 +10,7 @@
 Needs numpy and h5py, nothing else.
 """
 
+from .alarms import Alarm
 from .errors import EndoflowError, OutOfRangeError, RunDirectoryError
 from .fields import Fields
 from .run import Run, load

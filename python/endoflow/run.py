@@ -1,11 +1,12 @@
 """A whole run directory."""
 
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 
+from .alarms import alarms_of, is_alarm
 from .errors import RERUN, OutOfRangeError, RunDirectoryError
 from .fields import field_files, read_fields
 from .history import read_history, unit_of
@@ -57,6 +58,24 @@ class Run:
         """Time (µs) of the event called `name` (e.g. "budding"), or None."""
         event = self.record.get("events", {}).get(name)
         return None if event is None else float(event["time_us"])
+
+    @property
+    def alarms(self):
+        """What left the bounds of an accurate run, a list of Alarm; empty for a run that may be trusted."""
+        return alarms_of(self.record)
+
+    def until(self, time):
+        """The run as it would be had it ended at `time` (µs): rows, shapes and events up to then."""
+        latest = time + 1e-9 * max(1.0, abs(time))
+        kept = self.history["time_us"] <= latest
+        alarms = [alarm for alarm in self.record.get("alarms") or [] if alarm["time_us"] <= latest]
+        events = {name: event for name, event in self.record["events"].items() if event["time_us"] <= latest}
+        return replace(
+            self,
+            record={**self.record, "events": events, "alarms": alarms},
+            history={column: values[kept] for column, values in self.history.items()},
+            shapes=[shape for shape in self.shapes if shape.time <= latest],
+        )
 
     def history_at(self, column, time):
         """A history column interpolated linearly at `time` (µs; number or array); nan outside the run and beside gaps."""
@@ -111,4 +130,6 @@ def _read_record(path):
     for name, event in record["events"].items():
         if not isinstance(event, dict) or not isinstance(event.get("time_us"), (int, float)):
             raise RunDirectoryError(path, f"event `{name}` has no `time_us`", RERUN)
+    if not all(map(is_alarm, record.get("alarms") or [])):
+        raise RunDirectoryError(path, "an entry of `alarms` lacks name, time_us, value or bound", RERUN)
     return record

@@ -11,11 +11,12 @@ import locations
 import synthetic
 
 
-def compare(*arguments, **environment):
-    """Run compare.py with additions to the environment; returns the finished process with its text."""
+def compare(*arguments, stdout=subprocess.PIPE, **environment):
+    """Run `compare` with additions to the environment; returns the finished process with its text."""
     return subprocess.run(
         [sys.executable, locations.COMPARISONS, "compare", *map(str, arguments)],
-        capture_output=True,
+        stdout=stdout,
+        stderr=subprocess.PIPE,
         text=True,
         timeout=1200,
         env={**os.environ, **environment},

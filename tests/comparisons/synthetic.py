@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import h5py
 import numpy as np
+from scipy.integrate import trapezoid
 
 from endoflow.curves import arc_length, equivalent_radius
 from endoflow.history import REQUIRED_COLUMNS
@@ -31,6 +32,17 @@ MEMBRANE_UNITS = {
     "kappa": "1/nm",
     "u_r": "nm/us",
     "u_z": "nm/us",
+}
+
+
+#: An entry of run.json's `alarms`.
+ALARM = {
+    "name": "energy-balance",
+    "time_us": 0.125,
+    "value": 4.1e-3,
+    "bound": 1e-3,
+    "meaning": "rate against power",
+    "remedy": "raise elements",
 }
 
 
@@ -117,10 +129,10 @@ def history_row(membrane, time, step):
         "bud_diameter_nm": membrane.bud_diameter,
         "bud_height_nm": membrane.bud_height,
         "membrane_area_nm2": membrane.area,
-        "bending_energy_pN_nm": np.trapz(energy_density, area),
-        "molecule_mass_nm2": np.trapz(c, area),
+        "bending_energy_pN_nm": trapezoid(energy_density, area),
+        "molecule_mass_nm2": trapezoid(c, area),
         "area_strain_max": 1e-4 * (1 + time),
-        "volume_extracellular_nm3": np.trapz((z - membrane.z0) * np.pi * 2 * r * np.gradient(r), dx=1.0),
+        "volume_extracellular_nm3": trapezoid((z - membrane.z0) * np.pi * 2 * r * np.gradient(r), dx=1.0),
         "wall_s": 20 * time,
     }
 
@@ -178,6 +190,7 @@ def write_run(directory, engine, membrane_at, shape_times, points=400, case=None
         "engine": engine,
         "state": "finished",
         "exit_reason": "done",
+        "time_us": end,
         "parameters": case or parameters(),
         "provenance": {
             "version": "0.0.0",

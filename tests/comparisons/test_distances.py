@@ -4,6 +4,7 @@ import unittest
 
 import locations  # noqa: F401
 import numpy as np
+from scipy.integrate import trapezoid
 
 import synthetic
 from comparisons.measures.distances import SPACING, curve_distance, distance_to_polyline
@@ -62,7 +63,7 @@ class CurveDistance(unittest.TestCase):
         # The nearest point lies on the ray from the other sphere's centre: distance | |p − centre| − radius |, largest at the apex.
         averages = []
         for (r, z, *_), (*_, radius, centre) in ((cap(30.0, points=20000), high), (cap(33.0, points=20000), low)):
-            averages.append(np.trapz(np.abs(np.hypot(r, z - centre) - radius)) / (len(r) - 1))
+            averages.append(trapezoid(np.abs(np.hypot(r, z - centre) - radius)) / (len(r) - 1))
         self.assertAlmostEqual(distance.hausdorff, 3.0, delta=1e-6)
         # Chords of the samples stay within SPACING²/(8 radius) of the arc.
         self.assertAlmostEqual(distance.mean, 0.5 * sum(averages), delta=SPACING**2 / (8 * high[2]) + 1e-6)

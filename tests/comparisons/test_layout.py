@@ -5,6 +5,7 @@ import unittest
 
 import locations
 
+
 GROUPS = ("measures", "studies", "drawing", "page", "paper", "commands")
 SOURCES = locations.ROOT / "comparisons"
 
@@ -30,7 +31,7 @@ class LayoutTest(unittest.TestCase):
     def test_every_module_has_a_group(self):
         folders = {path.parent.name for path in SOURCES.rglob("*.py")}
         self.assertEqual(folders, {*GROUPS, "comparisons"})
-        self.assertEqual({p.stem for p in SOURCES.glob("*.py")}, {"__init__", "__main__", "errors"})
+        self.assertEqual({p.stem for p in SOURCES.glob("*.py")}, {"__init__", "__main__", "errors", "files"})
 
     def test_only_commands_and_the_running_of_members_print(self):
         printing = {

@@ -10,18 +10,24 @@ from pathlib import Path
 
 import locations  # noqa: F401
 import synthetic
-from studies import StudyTest
-
 from comparisons.studies.member_runner import shares
 from comparisons.studies.members import CONTINUE, FINISHED, FRESH, Member, directory_name, run_command, work_left
 from comparisons.studies.progress import duration, remaining
+from studies import StudyTest
 
 
 class Names(unittest.TestCase):
     def test_directories(self):
         self.assertEqual(directory_name({"a.x": "36", "b.y": "1e-05"}), "x=36/y=1e-05")
         self.assertEqual(directory_name({"a.x": "1", "b.x": "2"}), "a.x=1/b.x=2")
-        self.assertEqual(directory_name({"a.x": "../b c"}), "x=.._b_c")
+        self.assertEqual(directory_name({"a.x": "../b c"}), "x=..%2Fb%20c")
+
+    def test_different_values_have_different_directories(self):
+        values = ("a b", "a_b", "a%20b", "a/b", "ä", "a\nb", "'", '"', "+", "=")
+        names = {directory_name({"case.name": value}) for value in values}
+        self.assertEqual(len(names), len(values))
+        for name in names:
+            self.assertRegex(name, r"\A[\w.%=+~-]+\Z")
 
 
 class Work(unittest.TestCase):
@@ -30,8 +36,9 @@ class Work(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.directory = Path(scratch.name)
 
-    def left(self, state="finished", reason="done", checkpoint=True, engine="phase-field", **changes):
-        record = {"engine": "phase-field", "state": state, "exit_reason": reason, "parameters": synthetic.parameters()}
+    def left(self, state="finished", reason="done", checkpoint=True, engine="phase-field", time=1.0, **changes):
+        record = {"engine": "phase-field", "state": state, "exit_reason": reason, "time_us": time}
+        record["parameters"] = synthetic.parameters()
         (self.directory / "run.json").write_text(json.dumps(record))
         (self.directory / "checkpoint").mkdir(exist_ok=True)
         (self.directory / "checkpoint" / "state.h5").unlink(missing_ok=True)
@@ -56,7 +63,13 @@ class Work(unittest.TestCase):
         self.assertEqual(self.left(time__end=2.0), CONTINUE)
         self.assertEqual(self.left(time__end=2.0, checkpoint=False), FRESH)
         self.assertEqual(self.left(reason="neck-closed", time__end=2.0), FRESH)
-        self.assertEqual(self.left(time__end=0.5), FRESH)
+
+    def test_an_earlier_end(self):
+        """The synthetic run's end is 1 µs; it is enough where it came as far as asked for."""
+        self.assertEqual(self.left(time__end=0.5), FINISHED)
+        self.assertEqual(self.left("interrupted", time=0.7, time__end=0.5), FINISHED)
+        self.assertEqual(self.left("interrupted", None, time=0.4, time__end=0.5), CONTINUE)
+        self.assertEqual(self.left(time__end=0.5, engine="boundary-integral"), FRESH)
 
     def test_no_run(self):
         self.assertEqual(work_left(Member("m", "c", self.directory / "no", "phase-field", (), {}, {})), FRESH)
@@ -123,6 +136,17 @@ class Slurm(StudyTest):
             " --set molecules.patch_radius=30 -o 'a dir/patch_radius=30/phase-field' ;;",
             text,
         )
+
+    def test_nothing_in_a_name_becomes_a_line_of_the_script(self):
+        sweep = self.SWEEP[:-1]
+        for name in ("a\n#SBATCH --account=other\nrm -rf x", 'a"b', "a\\b"):
+            process = self.call("sweep", *sweep, name, "--slurm")
+            self.assert_one_line(process, 2, "-o: .* cannot stand in a batch script; choose a name without line breaks")
+            self.assertEqual(list(self.scratch.rglob("*.sbatch")), [])
+        self.assertEqual(self.call("sweep", *sweep, "it's $(touch x) 5%A", "--slurm").returncode, 0)
+        text = (self.scratch / "it's $(touch x) 5%A" / "sweep.sbatch").read_text()
+        self.assertIn('#SBATCH --output="it\'s $(touch x) 5%%A/slurm-%A_%a.txt"\n', text)
+        self.assertIn(f'#SBATCH --chdir="{self.scratch}"\n', text)
 
     def test_tasks_run_are_left_out_when_finished_and_are_collected(self):
         self.call("sweep", *self.SWEEP, "--slurm", "--processes", "2")

@@ -3,6 +3,7 @@
 import json
 import tempfile
 import unittest
+from dataclasses import replace
 from pathlib import Path
 
 import locations  # noqa: F401
@@ -10,7 +11,15 @@ import numpy as np
 
 import endoflow
 import synthetic
-from comparisons.measures.metrics import NoCommonTimeError, case_differences, common_times, compare_runs, pair, patch_area
+from comparisons.measures.interpolation import InterpolationError
+from comparisons.measures.metrics import (
+    NoCommonTimeError,
+    case_differences,
+    common_times,
+    compare_runs,
+    pair,
+    patch_area,
+)
 
 OFFSET = 0.5
 LABELS = ("first", "second")
@@ -96,7 +105,15 @@ class DifferentRuns(unittest.TestCase):
         # The runs are equal: what is left is the interpolation in time, at most interval²/8 times the acceleration of the apex.
         self.assertLess(max(r["hausdorff_distance_nm"] for r in records), 4.0)
         self.assertLess(records[1]["hausdorff_distance_nm"], 1e-9)
-        self.assertTrue(compare_runs(a, b, LABELS)["summary"]["includes_interpolated_shapes"])
+        metrics = compare_runs(a, b, LABELS)
+        self.assertTrue(metrics["summary"]["includes_interpolated_shapes"])
+        self.assertRegex(metrics["warnings"][0], "distances include an interpolation error estimated as up to .* nm")
+        # The estimate is made where the neighbouring shapes lie, the error is met between them.
+        for record in records:
+            if record["interpolated"]:
+                ratio = record["interpolation_error_nm"] / record["hausdorff_distance_nm"]
+                self.assertTrue(0.8 < ratio < 8, record["time_us"])
+        self.assertEqual(records[1]["interpolation_error_nm"], 0)
 
     def test_summary_leaves_interpolation_out_where_it_can(self):
         a = self.run_with("a", [0.0, 0.3, 0.6])
@@ -105,6 +122,24 @@ class DifferentRuns(unittest.TestCase):
         self.assertGreater(max(r["hausdorff_distance_nm"] for r in metrics["times"]), 0.1)
         self.assertEqual(metrics["summary"]["max_hausdorff_distance_nm"], 0)
         self.assertFalse(metrics["summary"]["includes_interpolated_shapes"])
+        self.assertEqual((metrics["summary"]["interpolation_error_nm"], metrics["warnings"]), (0, []))
+        self.assertEqual(metrics["summary"]["times_compared"], 3)
+
+    def test_an_interpolation_error_that_cannot_be_estimated_is_said_to_be_unknown(self):
+        a, b = self.run_with("a", [0.0, 0.4]), self.run_with("b", [0.1, 0.3])
+        metrics = compare_runs(a, b, LABELS)
+        self.assertIsNone(metrics["summary"]["interpolation_error_nm"])
+        self.assertRegex(metrics["warnings"][0], "of unknown size")
+
+    def test_interpolation_error_of_an_accelerated_membrane(self):
+        """A flat membrane at z = 80 + 3 t² nm: the estimate is the error, 3 (t − t₁)(t₂ − t), at every time."""
+        lifted = lambda t: replace(synthetic.budding_membrane(0.0, 1.0), z0=80 + 3 * t * t)  # noqa: E731
+        run = endoflow.load(synthetic.write_run(self.scratch / "lifted", "phase-field", lifted, [0.0, 0.2, 0.3, 0.7]))
+        estimate = InterpolationError(run)
+        for before, time, after in ((0.0, 0.15, 0.2), (0.2, 0.25, 0.3), (0.3, 0.5, 0.7)):
+            # The label of material points is exact to about 1e-4 nm on 400 points.
+            self.assertAlmostEqual(estimate.at(time), 3 * (time - before) * (after - time), delta=2e-3)
+        self.assertEqual(estimate.at(0.3), 0.0)
 
     def test_no_common_time(self):
         a, b = self.run_with("a", [0.0, 0.2]), self.run_with("b", [0.5, 0.9])

@@ -4,8 +4,9 @@ import json
 import unittest
 
 import locations  # noqa: F401
-import synthetic
 from command import CompareTest, compare
+
+import synthetic
 
 PLOTS = ("membranes", "outlines", "concentration", "histories", "distances")
 
@@ -30,12 +31,46 @@ class Output(CompareTest):
         self.assertEqual(metrics["summary"]["max_hausdorff_distance_nm"], 0)
         self.assertNotEqual(metrics["runs"]["a"]["label"], metrics["runs"]["b"]["label"])
 
-    def test_runs_without_a_bud_and_a_single_shape(self):
-        flat = synthetic.write_run(
-            self.scratch / "flat", "phase-field", lambda t: synthetic.budding_membrane(0.05 * t, 1.0), [0.0]
+    def flat(self, name, times):
+        """A run whose membrane hardly leaves the plane."""
+        return synthetic.write_run(
+            self.scratch / name, "phase-field", lambda t: synthetic.budding_membrane(0.05 * t, 1.0), times
         )
-        process = compare(flat, self.a, "-o", self.scratch / "single")
+
+    def test_runs_without_a_bud(self):
+        process = compare(self.flat("flat", [0.0, 0.25]), self.a, "-o", self.scratch / "without")
         self.assertEqual((process.returncode, process.stderr), (0, ""))
+
+    def test_one_common_moment_is_nothing_to_compare(self):
+        """Both start from the same membrane: a report of the start alone would say 0 nm everywhere."""
+        process = compare(self.flat("start", [0.0]), self.a, "-o", self.scratch / "moment")
+        self.assert_one_line(process, 2, "nothing to compare: .* share only t = 0 µs; run them longer, or write shapes")
+        self.assertFalse((self.scratch / "moment").exists())
+
+    def test_alarms_are_shown(self):
+        alarmed = self.flat("alarmed", [0.0, 0.25])
+        record = json.loads((alarmed / "run.json").read_text())
+        record["alarms"] = [synthetic.ALARM]
+        (alarmed / "run.json").write_text(json.dumps(record))
+        process = compare(self.a, alarmed, "-o", self.scratch / "with_alarm")
+        sentence = "energy-balance at t = 0.125 µs: rate against power: 0.0041, allowed 0.001; raise elements"
+        self.assertIn(f"warning: run B ({alarmed}): {sentence}", process.stderr)
+        self.assertIn(sentence, (self.scratch / "with_alarm" / "report.html").read_text())
+        metrics = json.loads((self.scratch / "with_alarm" / "metrics.json").read_text())
+        self.assertEqual([alarm["name"] for alarm in metrics["runs"]["b"]["alarms"]], ["energy-balance"])
+
+    def test_a_full_disk_names_the_file(self):
+        for name in ("metrics.json", "histories.png", "report.html"):
+            output = self.scratch / f"full {name}"
+            output.mkdir()
+            (output / name).symlink_to("/dev/full")
+            process = compare(self.a, self.b, "-o", output)
+            self.assert_one_line(process, 4, f"{name}: No space left on device; free some space")
+
+    def test_a_full_disk_behind_standard_output(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            process = compare(self.a, self.b, "-o", self.scratch / "full output", stdout=full)
+        self.assert_one_line(process, 4, "standard output: No space left on device")
 
     def test_one_run_ends_before_the_other_buds(self):
         """The common times end at 0.5 µs, budding is at 0.73 µs, and the longer run's history at 5 µs."""

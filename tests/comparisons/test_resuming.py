@@ -1,10 +1,12 @@
 """What `endoflow sweep` runs again, continues, leaves out; failures and Ctrl-C."""
 
+import json
 import signal
 import time
 import unittest
 
 import locations  # noqa: F401
+import synthetic
 from studies import BOUNDARY_INTEGRAL, PATCHES, SweepTest
 
 
@@ -27,6 +29,29 @@ class Resuming(SweepTest):
         self.runs()
         self.sweep("--vary", "molecules.patch_radius=20", *BOUNDARY_INTEGRAL, "-o", "s", "--until", "1")
         self.assertEqual(self.runs(), ["s/patch_radius=20/boundary-integral restart"])
+
+    def test_an_earlier_end_takes_the_longer_run(self):
+        patch = ("--vary", "molecules.patch_radius=20", *BOUNDARY_INTEGRAL, "-o", "s")
+        self.sweep(*patch, "--until", "1")
+        whole = self.rows("s")[0]
+        self.runs()
+        process = self.sweep(*patch, "--until", "0.5")
+        self.assertEqual((process.returncode, self.runs()), (0, []))
+        row = self.rows("s")[0]
+        self.assertEqual((row["time_us"], row["state"], row["exit_reason"]), ("0.5", "finished", "done"))
+        # Budding of the family is at 0.7346 µs, after the earlier end; history.csv has a row at 0.5 µs.
+        self.assertEqual((whole["budding_time_us"][:5], row["budding_time_us"]), ("0.734", ""))
+        height = synthetic.budding_membrane(0.5, 1.0).bud_height
+        self.assertAlmostEqual(float(row["height_nm"]), height, delta=1e-6)
+
+    def test_alarms_have_a_column(self):
+        patch = ("--vary", "molecules.patch_radius=20,30", *BOUNDARY_INTEGRAL, "-o", "s")
+        self.sweep(*patch)
+        file = self.scratch / "s/patch_radius=30/boundary-integral/run.json"
+        file.write_text(json.dumps({**json.loads(file.read_text()), "alarms": [synthetic.ALARM]}))
+        self.sweep(*patch)
+        self.assertEqual([row["alarms"] for row in self.rows("s")], ["", "energy-balance"])
+        self.assertIn("accuracy alarm: energy-balance", (self.scratch / "s/report.html").read_text())
 
     def test_one_failure_does_not_stop_the_others(self):
         process = self.sweep("--vary", "molecules.patch_radius=13,20,40", *BOUNDARY_INTEGRAL, "--jobs", "1")
