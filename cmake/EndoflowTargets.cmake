@@ -1,17 +1,29 @@
 # How the parts of the project see each other.
 #
 # Files include each other by their path from the project's root ("shared/model/bending_model.h"). Each part gets a
-# directory of its own in the build tree that holds nothing but a link to the part, and a target sees the directories
-# of the parts it links, no others. So boundary_integral/ cannot include phasefield/, and neither can include cli/.
+# directory of its own in the build tree that holds nothing but a link to the part's folder, and a target sees the
+# directories of the parts it links, no others. So boundary_integral/ cannot include phasefield/, and neither can include
+# cli/. A folder inside a part ("phasefield/fem") can be a part itself; the part around it then links single headers.
 
 get_filename_component(ENDOFLOW_ROOT ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
 
+# endoflow_part_directory(PART result [headers…]): the directory through which PART is seen, whole or these headers alone.
 function(endoflow_part_directory part result)
-  set(root ${CMAKE_BINARY_DIR}/include/${part})
-  file(MAKE_DIRECTORY ${root})
-  if(NOT EXISTS ${root}/${part})
-    file(CREATE_LINK ${ENDOFLOW_ROOT}/${part} ${root}/${part} SYMBOLIC)
+  string(REPLACE "/" "-" name ${part})
+  set(root ${CMAKE_BINARY_DIR}/include/${name})
+  set(linked ${part})
+  set(headers ${ARGN})
+  list(TRANSFORM headers PREPEND ${part}/)
+  if(headers)
+    set(linked ${headers})
   endif()
+  foreach(entry IN LISTS linked)
+    get_filename_component(folder ${root}/${entry} DIRECTORY)
+    file(MAKE_DIRECTORY ${folder})
+    if(NOT EXISTS ${root}/${entry})
+      file(CREATE_LINK ${ENDOFLOW_ROOT}/${entry} ${root}/${entry} SYMBOLIC)
+    endif()
+  endforeach()
   set(${result} ${root} PARENT_SCOPE)
 endfunction()
 
@@ -41,10 +53,12 @@ elseif(ENDOFLOW_FUZZ)
   target_link_options(endoflow_sanitizers INTERFACE -fsanitize=address,undefined)
 endif()
 
-# endoflow_add_part(TARGET PART sources… ) makes a static library of one part; its users see PART's headers.
+# endoflow_add_part(TARGET PART sources… [HEADERS headers…]) makes a static library of one part; its users see PART's
+# headers, or those named alone.
 function(endoflow_add_part target part)
-  endoflow_part_directory(${part} root)
-  add_library(${target} STATIC ${ARGN})
+  cmake_parse_arguments(part "" "" "HEADERS" ${ARGN})
+  endoflow_part_directory(${part} root ${part_HEADERS})
+  add_library(${target} STATIC ${part_UNPARSED_ARGUMENTS})
   target_include_directories(${target} PUBLIC ${root})
   target_link_libraries(${target} PRIVATE endoflow_warnings PUBLIC endoflow_sanitizers)
 endfunction()

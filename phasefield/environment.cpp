@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "phasefield/evolution/history.h"
+#include "phasefield/driver/history.h"
 #include "phasefield/simulation.h"
 
 #ifdef __SANITIZE_ADDRESS__

@@ -5,9 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "phasefield/discretization/same_cell.h"
-#include "phasefield/weak_forms/bending.h"
-#include "phasefield/weak_forms/interface_geometry.h"
+#include "phasefield/fem/same_cell.h"
+#include "phasefield/layer/profile.h"
 
 namespace endoflow::phasefield {
 
@@ -45,7 +44,7 @@ double CellContour::phi_at(double x, double y) const {
 
 ContourPoint CellContour::point(double x, double y) const {
     const dealii::Point<2> unit(x, y);
-    PhaseFieldPoint p;
+    LevelSetPoint p;
     for (unsigned int j = 0; j < phi_.size(); ++j) {
         const auto gradient = phi_element_.shape_grad(j, unit);
         const auto hessian = phi_element_.shape_grad_grad(j, unit);

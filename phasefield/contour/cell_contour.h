@@ -5,8 +5,8 @@
 #include <array>
 
 #include "phasefield/contour/chain.h"
-#include "phasefield/discretization/scalar_basis.h"
-#include "phasefield/discretization/space.h"
+#include "phasefield/fem/scalar_basis.h"
+#include "phasefield/fem/space.h"
 
 namespace endoflow::phasefield {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "phasefield/contour/chain.h"
-#include "phasefield/discretization/mesh.h"
+#include "phasefield/fem/mesh.h"
 
 namespace endoflow::phasefield {
 

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "phasefield/contour/cell_contour.h"
-#include "phasefield/discretization/mesh.h"
+#include "phasefield/fem/mesh.h"
 #include "shared/geometry/membrane_curve.h"
+#include "shared/parameters/parameters.h"
 
 namespace endoflow::phasefield {
 

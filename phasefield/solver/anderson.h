@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "phasefield/discretization/space.h"
+#include "phasefield/fem/space.h"
 
 namespace endoflow::phasefield {
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "phasefield/discretization/same_cell.h"
+#include "phasefield/fem/same_cell.h"
 #include "shared/support/error.h"
 
 namespace endoflow::phasefield {

@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "phasefield/discretization/space.h"
+#include "phasefield/fem/space.h"
 
 typedef struct _p_KSP* KSP;
 

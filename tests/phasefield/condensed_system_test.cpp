@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "phasefield/discretization/mesh.h"
+#include "phasefield/fem/mesh.h"
 #include "phasefield/solver/condensed_system.h"
 #include "shared/support/error.h"
 #include "small_case.h"

@@ -4,14 +4,15 @@
 #include <cmath>
 
 #include "phasefield/contour/contour.h"
-#include "phasefield/evolution/discretization.h"
-#include "phasefield/production/fields.h"
-#include "phasefield/weak_forms/bending.h"
+#include "phasefield/schemes/paper/bending.h"
+#include "phasefield/schemes/paper/discretization.h"
+#include "phasefield/schemes/production/fields.h"
 #include "shared/geometry/observables.h"
 #include "small_case.h"
 
 using namespace endoflow;
 using namespace endoflow::phasefield;
+using namespace endoflow::phasefield::paper;
 
 namespace {
 

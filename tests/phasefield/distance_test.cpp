@@ -8,7 +8,7 @@
 
 #include "one_step.h"
 #include "phasefield/contour/closest_normal.h"
-#include "phasefield/discretization/component_field.h"
+#include "phasefield/fem/component_field.h"
 #include "small_case.h"
 
 using namespace endoflow;

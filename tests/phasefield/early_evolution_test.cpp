@@ -5,12 +5,13 @@
 #include <sstream>
 
 #include "phasefield/contour/contour.h"
-#include "phasefield/evolution/layer_integral.h"
-#include "phasefield/evolution/paper_step.h"
+#include "phasefield/schemes/paper/diagnostics.h"
+#include "phasefield/schemes/paper/paper_step.h"
 #include "shared/geometry/observables.h"
 
 using namespace endoflow;
 using namespace endoflow::phasefield;
+using namespace endoflow::phasefield::paper;
 
 namespace {
 

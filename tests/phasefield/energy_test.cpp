@@ -4,12 +4,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "phasefield/evolution/layer_integral.h"
-#include "phasefield/evolution/paper_step.h"
+#include "phasefield/schemes/paper/diagnostics.h"
+#include "phasefield/schemes/paper/paper_step.h"
 #include "small_case.h"
 
 using namespace endoflow;
 using namespace endoflow::phasefield;
+using namespace endoflow::phasefield::paper;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "../shared/temporary_directory.h"
-#include "phasefield/discretization/mesh.h"
+#include "phasefield/fem/mesh.h"
 #include "phasefield/simulation.h"
 #include "phasefield/solver/linear_system.h"
 #include "shared/output/atomic_file.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "one_step.h"
-#include "phasefield/discretization/component_field.h"
+#include "phasefield/fem/component_field.h"
 
 using namespace endoflow;
 using namespace endoflow::phasefield;

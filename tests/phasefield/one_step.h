@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "phasefield/discretization/mesh.h"
-#include "phasefield/production/step_solver.h"
+#include "phasefield/fem/mesh.h"
+#include "phasefield/schemes/production/step_solver.h"
 
 namespace endoflow::phasefield::production {
 

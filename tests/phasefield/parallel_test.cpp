@@ -6,14 +6,15 @@
 #include <cmath>
 
 #include "phasefield/contour/contour.h"
-#include "phasefield/evolution/layer_integral.h"
-#include "phasefield/evolution/paper_step.h"
-#include "phasefield/io/mesh_checkpoint.h"
+#include "phasefield/schemes/paper/diagnostics.h"
+#include "phasefield/schemes/paper/paper_step.h"
+#include "phasefield/schemes/paper/state_files.h"
 #include "shared/geometry/observables.h"
 #include "small_case.h"
 
 using namespace endoflow;
 using namespace endoflow::phasefield;
+using namespace endoflow::phasefield::paper;
 
 namespace {
 

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "one_step.h"
-#include "phasefield/production/assembly.h"
-#include "phasefield/production/bdf.h"
-#include "phasefield/production/production_scheme.h"
+#include "phasefield/schemes/production/assembly.h"
+#include "phasefield/schemes/production/bdf.h"
+#include "phasefield/schemes/production/production_scheme.h"
 #include "shared/geometry/observables.h"
 #include "small_case.h"
 

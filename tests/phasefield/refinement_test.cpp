@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "phasefield/production/refinement.h"
+#include "phasefield/schemes/production/refinement.h"
 
 using namespace endoflow;
 using namespace endoflow::phasefield;

@@ -5,12 +5,13 @@
 #include <string>
 
 #include "phasefield/contour/chain.h"
-#include "phasefield/evolution/clearance.h"
-#include "phasefield/evolution/step_control.h"
+#include "phasefield/driver/clearance.h"
+#include "phasefield/schemes/paper/step_control.h"
 #include "shared/support/error.h"
 
 using namespace endoflow;
 using namespace endoflow::phasefield;
+using namespace endoflow::phasefield::paper;
 
 TEST_CASE("the step doubles every ramp_steps steps up to its limit", "[control]") {
     Parameters p;

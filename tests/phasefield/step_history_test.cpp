@@ -1,6 +1,6 @@
 // What a step takes from the solutions before it.
 
-#include "phasefield/production/step_history.h"
+#include "phasefield/schemes/production/step_history.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -9,14 +9,15 @@
 #include <cmath>
 
 #include "one_step.h"
-#include "phasefield/discretization/mesh.h"
-#include "phasefield/evolution/layer_integral.h"
-#include "phasefield/production/assembly.h"
-#include "phasefield/production/fields.h"
+#include "phasefield/fem/mesh.h"
+#include "phasefield/schemes/paper/diagnostics.h"
+#include "phasefield/schemes/production/assembly.h"
+#include "phasefield/schemes/production/fields.h"
 #include "small_case.h"
 
 using namespace endoflow;
 using namespace endoflow::phasefield;
+using namespace endoflow::phasefield::paper;
 using namespace endoflow::phasefield::production;
 
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "phasefield/discretization/mesh.h"
-#include "phasefield/production/production_scheme.h"
+#include "phasefield/fem/mesh.h"
+#include "phasefield/schemes/production/production_scheme.h"
 #include "phasefield/solver/anderson.h"
 #include "small_case.h"
 

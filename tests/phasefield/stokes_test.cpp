@@ -4,11 +4,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "phasefield/discretization/mesh.h"
-#include "phasefield/monolithic/coupled_step.h"
+#include "phasefield/fem/mesh.h"
+#include "phasefield/schemes/paper/coupled_step.h"
 
 using namespace endoflow;
 using namespace endoflow::phasefield;
+using namespace endoflow::phasefield::paper;
 
 namespace {
 

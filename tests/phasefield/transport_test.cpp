@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "phasefield/contour/contour.h"
-#include "phasefield/evolution/layer_integral.h"
-#include "phasefield/evolution/paper_step.h"
+#include "phasefield/schemes/paper/diagnostics.h"
+#include "phasefield/schemes/paper/paper_step.h"
 #include "shared/geometry/observables.h"
 #include "small_case.h"
 
 using namespace endoflow;
 using namespace endoflow::phasefield;
+using namespace endoflow::phasefield::paper;
 
 namespace {
 

@@ -3,11 +3,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "phasefield/weak_forms/bending.h"
-#include "phasefield/weak_forms/interface_geometry.h"
+#include "phasefield/schemes/paper/bending.h"
+#include "phasefield/schemes/paper/interface_geometry.h"
 
 using namespace endoflow;
 using namespace endoflow::phasefield;
+using namespace endoflow::phasefield::paper;
 
 TEST_CASE("as printed, the energy density is that of (5)", "[weak_forms]") {
     const MembraneParameters membrane;  // b = (1 + 11 c) b_m, H0 = c/14.1 nm
@@ -99,7 +100,7 @@ TEST_CASE("the layer's geometry and viscosity have their limits", "[weak_forms]"
     }
     // A sphere of extracellular fluid: φ grows inwards, ∇·n = −2/R for n along ∇φ.
     const double R = 15, r = 9, z = 12;
-    const PhaseFieldPoint sphere{
+    const LevelSetPoint sphere{
         0, -r / R, -z / R, -1 / R + r * r / (R * R * R), r * z / (R * R * R), -1 / R + z * z / (R * R * R)};
     CHECK(normal_divergence(sphere, r, 0) == Approx(-2 / R).epsilon(1e-12));
 }

@@ -1,0 +1,177 @@
+#include "phasefield/driver/time_loop.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "phasefield/driver/clearance.h"
+#include "phasefield/driver/history.h"
+#include "shared/output/output_times.h"
+#include "shared/support/error.h"
+#include "shared/support/interruption.h"
+
+namespace endoflow::phasefield {
+
+namespace {
+
+constexpr int event_iterations = 4;  // of regula falsi within a step
+
+}  // namespace
+
+TimeLoop::TimeLoop(const Parameters& parameters, RunOutput& output, MPI_Comm communicator,
+                   std::unique_ptr<Scheme> scheme)
+    : parameters_(parameters),
+      output_(output),
+      communicator_(communicator),
+      scheme_(std::move(scheme)),
+      model_(parameters.membrane) {
+    if (output.restart_point())
+        restart(*output.restart_point());
+    else
+        start_fresh();
+}
+
+void TimeLoop::start_fresh() {
+    const StepOutcome outcome = scheme_->start();
+    contour_ = outcome.contour;
+    last_energy_ = outcome.diagnostics.bending_energy;
+    record(0, outcome.diagnostics);
+    output_.write_shape(0, contour_.curve);
+    if (parameters_.output.field_interval > 0) write_fields(0);
+    plan_output(0);
+}
+
+ExitReason TimeLoop::run() {
+    while (true) {
+        if (const auto reason = reason_to_stop()) {
+            if (time_ > 0) checkpoint();
+            return *reason;
+        }
+        step();
+        check_clearance();
+        write_due_output();
+        if (anywhere(output_.checkpoint_due())) checkpoint();
+    }
+}
+
+std::optional<ExitReason> TimeLoop::reason_to_stop() {
+    if (time_ >= parameters_.time.end * (1 - same_time)) return ExitReason::done;
+    if (anywhere(interruption_signal() != 0)) return ExitReason::interrupted;
+    if (budding_time_ && parameters_.output.stop_at_budding) return ExitReason::budded;
+    if (contour_.components > 1) return ExitReason::neck_closed;
+    return {};
+}
+
+void TimeLoop::step() {
+    while (true) {
+        const double tau = scheme_->step(time_, next_deadline());
+        if (const auto outcome = attempt(tau)) {
+            keep(*outcome, tau);
+            return;
+        }
+        output_.count_rejected_step();
+        scheme_->reject(time_, tau);
+    }
+}
+
+std::optional<StepOutcome> TimeLoop::attempt(double tau) {
+    const PhaseTimer timer(output_, "time step");
+    try {
+        StepOutcome outcome = scheme_->attempt(time_, tau);
+        if (outcome.rejection.empty()) return outcome;
+        output_.log_info("step of " + std::to_string(1e3 * tau) + " ns rejected: " + outcome.rejection);
+    } catch (const SolverError& error) {
+        output_.log_info("step of " + std::to_string(1e3 * tau) + " ns rejected: " + error.what());
+    }
+    return {};
+}
+
+void TimeLoop::keep(const StepOutcome& outcome, double tau) {
+    scheme_->keep(time_, tau, outcome);
+    contour_ = outcome.contour;
+    time_ += tau;
+    record(tau, outcome.diagnostics);
+    watch_neck(tau);
+    const PhaseTimer timer(output_, "mesh adaptation");
+    scheme_->follow(contour_.curve);
+}
+
+void TimeLoop::record(double tau, const StepDiagnostics& diagnostics) {
+    const PhaseTimer timer(output_, "observables");
+    observables_ = measure(contour_.curve, model_);
+    const double loss = diagnostics.viscous_dissipation + diagnostics.mobility_dissipation + diagnostics.tension_power -
+                        diagnostics.transport_power;
+    // (21) over the step, the power by the trapezoidal rule; the first step starts from rest in an instant.
+    const double power = last_loss_ != 0 ? 0.5 * (last_loss_ + loss) : loss;
+    const double residual = tau > 0 ? (diagnostics.bending_energy - last_energy_) / tau + power : 0;
+    last_energy_ = diagnostics.bending_energy;
+    last_loss_ = loss;
+    output_.record_step(make_history_row({time_, tau, diagnostics, scheme_->integrate(), observables_, residual,
+                                          scheme_->unknowns(), scheme_->cells()}));
+}
+
+void TimeLoop::watch_neck(double tau) {
+    const auto before = neck_radius_;
+    neck_radius_ = observables_.neck ? std::optional(observables_.neck->radius) : std::nullopt;
+    if (budding_time_ || !neck_radius_ || *neck_radius_ >= budding_neck_radius) return;
+    Observables at_event = observables_;
+    budding_time_ = before ? time_of_budding(*before, tau, at_event) : time_;
+    output_.record_event("budding", *budding_time_,
+                         {{"bud_diameter_nm", at_event.neck->lateral_diameter},
+                          {"membrane_area_nm2", at_event.membrane_area},
+                          {"bud_height_nm", at_event.bud_height}});
+}
+
+double TimeLoop::time_of_budding(double before, double tau, Observables& at_event) const {
+    double low = time_ - tau, above = before, high = time_, below = *neck_radius_;
+    const auto crossing = [&] { return low + (high - low) * (above - budding_neck_radius) / (above - below); };
+    for (int k = 0; scheme_->interpolates() && k < event_iterations; ++k) {
+        const double time = crossing();
+        const Observables middle = measure(scheme_->contour_at(time).curve, model_);
+        if (!middle.neck) break;
+        at_event = middle;
+        const double radius = middle.neck->radius;
+        (radius < budding_neck_radius ? high : low) = time;
+        (radius < budding_neck_radius ? below : above) = radius;
+    }
+    return crossing();
+}
+
+void TimeLoop::check_clearance() const {
+    require_clearance(contour_.curve, parameters_, time_);
+}
+
+double TimeLoop::next_deadline() const {
+    if (scheme_->interpolates()) return parameters_.time.end;
+    return std::min({parameters_.time.end, next_shape_, next_fields_});
+}
+
+void TimeLoop::plan_output(double time) {
+    next_shape_ = next_multiple(parameters_.output.shape_interval, time);
+    next_fields_ = next_multiple(parameters_.output.field_interval, time);
+}
+
+void TimeLoop::write_due_output() {
+    const auto now = [this](double time) { return std::abs(time - time_) <= same_time * time_; };
+    const auto due = [&](double time) { return time < time_ && !now(time); };
+    for (; due(next_shape_); next_shape_ = next_multiple(parameters_.output.shape_interval, next_shape_))
+        output_.write_shape(next_shape_, scheme_->contour_at(next_shape_).curve);
+    for (; due(next_fields_); next_fields_ = next_multiple(parameters_.output.field_interval, next_fields_))
+        write_fields(next_fields_);
+    const bool end = time_ >= parameters_.time.end * (1 - same_time);
+    if (end || now(next_shape_)) output_.write_shape(time_, contour_.curve);
+    if ((end && parameters_.output.field_interval > 0) || now(next_fields_)) write_fields(time_);
+    plan_output(time_);
+}
+
+void TimeLoop::write_fields(double time) {
+    const PhaseTimer timer(output_, "field output");
+    scheme_->write_fields(output_.directory(), field_times_, time);
+}
+
+bool TimeLoop::anywhere(bool here) const {
+    return dealii::Utilities::MPI::max(here ? 1 : 0, communicator_) == 1;
+}
+
+}  // namespace endoflow::phasefield

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "phasefield/schemes/interface/scheme.h"
+#include "shared/geometry/observables.h"
+#include "shared/output/run_output.h"
+
+namespace endoflow::phasefield {
+
+/// A run in progress: the scheme with its state, the clock and what must be remembered between steps.
+class TimeLoop {
+  public:
+    TimeLoop(const Parameters& parameters, RunOutput& output, MPI_Comm communicator, std::unique_ptr<Scheme> scheme);
+    ExitReason run();
+
+  private:
+    void start_fresh();
+    void restart(const Checkpoint& checkpoint);
+    void step();
+    /// The outcome of a trial step that may be kept; empty when it must be repeated with a smaller one.
+    std::optional<StepOutcome> attempt(double tau);
+    void keep(const StepOutcome& outcome, double tau);
+    void record(double tau, const StepDiagnostics& diagnostics);
+    void watch_neck(double tau);
+    /// When the neck passed budding_neck_radius within the last step, and the observables then.
+    double time_of_budding(double before, double tau, Observables& at_event) const;
+    void check_clearance() const;
+    void write_due_output();
+    /// The next shapes and fields are the first multiples of their intervals after `time`.
+    void plan_output(double time);
+    void write_fields(double time);
+    void checkpoint();
+    [[nodiscard]] double next_deadline() const;
+    [[nodiscard]] bool anywhere(bool here) const;
+    [[nodiscard]] std::optional<ExitReason> reason_to_stop();
+
+    Parameters parameters_;
+    RunOutput& output_;
+    MPI_Comm communicator_;
+    std::unique_ptr<Scheme> scheme_;
+    BendingModel model_;
+    Contour contour_;
+    Observables observables_{};
+    double time_ = 0, last_energy_ = 0, last_loss_ = 0;
+    double next_shape_ = 0, next_fields_ = 0;  // when they are due [µs]
+    double checkpoints_written_ = 0;
+    std::vector<double> field_times_;
+    std::optional<double> neck_radius_, budding_time_;
+};
+
+}  // namespace endoflow::phasefield

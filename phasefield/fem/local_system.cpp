@@ -1,0 +1,121 @@
+#include "phasefield/fem/local_system.h"
+
+#include <algorithm>
+
+#include "phasefield/fem/small_product.h"
+
+namespace endoflow::phasefield {
+
+LocalSystem::LocalSystem(const Space& space, const dealii::Quadrature<2>& quadrature, std::optional<unsigned int> twice)
+    : space_(&space),
+      twice_(twice),
+      n_components_(static_cast<unsigned int>(space.degrees.size())),
+      fields_(n_components_),
+      residuals_(n_components_),
+      blocks_(n_components_ * n_components_),
+      used_(n_components_ * n_components_, 0) {
+    for (unsigned int component = 0; component < n_components_; ++component) {
+        std::shared_ptr<const ScalarBasis> basis;
+        for (const auto& known : bases_)
+            if (known->degree == space.degrees[component]) basis = known;
+        if (!basis) basis = std::make_shared<const ScalarBasis>(space.degrees[component], quadrature);
+        bases_.push_back(basis);
+    }
+    for (unsigned int i = 0; i < n_components_; ++i) {
+        residuals_[i].resize(bases_[i]->n_dofs);
+        for (unsigned int k = 0; k < n_components_; ++k)
+            blocks_[i * n_components_ + k].resize(bases_[i]->n_dofs * bases_[k]->n_dofs);
+    }
+}
+
+void LocalSystem::start(const CellBox& box, const dealii::Vector<double>& iterate) {
+    box_ = box;
+    for (unsigned int component = 0; component < n_components_; ++component) {
+        component_values(*space_, component, iterate, coefficients_);
+        evaluate(*bases_[component], box_, coefficients_,
+                 twice_ == component ? Derivatives::second : Derivatives::first, fields_[component]);
+        std::fill(residuals_[component].begin(), residuals_[component].end(), 0.0);
+    }
+    for (std::size_t block = 0; block < blocks_.size(); ++block)
+        if (used_[block]) std::fill(blocks_[block].begin(), blocks_[block].end(), 0.0);
+    std::fill(used_.begin(), used_.end(), char{0});
+}
+
+const std::vector<double>& LocalSystem::shapes(unsigned int component, Op op) const {
+    const ScalarBasis& basis = *bases_[component];
+    return op == Op::value ? basis.value : op == Op::dr ? basis.dx : basis.dy;
+}
+
+double LocalSystem::scale(Op op) const {
+    return op == Op::value ? 1.0 : op == Op::dr ? 1 / box_.hr : 1 / box_.hz;
+}
+
+const Coefficients& LocalSystem::field(unsigned int component, Op op) const {
+    const ScalarField& field = fields_[component];
+    return op == Op::value ? field.value : op == Op::dr ? field.r : field.z;
+}
+
+void LocalSystem::residual(unsigned int test, Op test_op, const Coefficients& weight) {
+    auto& out = residuals_[test];
+    const double factor = scale(test_op);
+    scaled_.resize(weight.size());
+    for (std::size_t q = 0; q < weight.size(); ++q) scaled_[q] = factor * weight[q];
+    add_transposed_product(scaled_.data(), shapes(test, test_op).data(), weight.size(), 1, out.size(), out.data());
+}
+
+void LocalSystem::jacobian(unsigned int test, Op test_op, unsigned int trial, Op trial_op, const Coefficients& weight) {
+    std::array<const Coefficients*, 3> weights{};
+    weights[static_cast<unsigned int>(trial_op)] = &weight;
+    jacobian(test, test_op, trial, weights);
+}
+
+void LocalSystem::jacobian(unsigned int test, Op test_op, unsigned int trial,
+                           const std::array<const Coefficients*, 3>& weights) {
+    const std::size_t n_test = bases_[test]->n_dofs, n_trial = bases_[trial]->n_dofs, n_points = bases_[test]->n_points;
+    used_[test * n_components_ + trial] = 1;
+    columns_.assign(n_points * n_trial, 0);
+    for (const Op trial_op : {Op::value, Op::dr, Op::dz}) {
+        const Coefficients* weight = weights[static_cast<unsigned int>(trial_op)];
+        if (weight == nullptr) continue;
+        const auto& trial_shapes = shapes(trial, trial_op);
+        const double factor = scale(test_op) * scale(trial_op);
+        for (std::size_t q = 0; q < n_points; ++q) {
+            const double w = factor * (*weight)[q];
+            for (std::size_t k = 0; k < n_trial; ++k) columns_[q * n_trial + k] += w * trial_shapes[q * n_trial + k];
+        }
+    }
+    add_transposed_product(shapes(test, test_op).data(), columns_.data(), n_points, n_test, n_trial,
+                           blocks_[test * n_components_ + trial].data());
+}
+
+void LocalSystem::linear(unsigned int test, Op test_op, unsigned int trial, Op trial_op, const Coefficients& weight) {
+    jacobian(test, test_op, trial, trial_op, weight);
+    const Coefficients& value = field(trial, trial_op);
+    product_.resize(weight.size());
+    for (std::size_t q = 0; q < weight.size(); ++q) product_[q] = weight[q] * value[q];
+    residual(test, test_op, product_);
+}
+
+void LocalSystem::write_residual(dealii::Vector<double>& right_hand_side) const {
+    for (unsigned int test = 0; test < n_components_; ++test) {
+        const auto& rows = space_->local[test];
+        for (std::size_t i = 0; i < rows.size(); ++i) right_hand_side(rows[i]) = -residuals_[test][i];
+    }
+}
+
+void LocalSystem::write_jacobian(dealii::FullMatrix<double>& jacobian) const {
+    jacobian = 0;
+    for (unsigned int test = 0; test < n_components_; ++test) {
+        const auto& rows = space_->local[test];
+        for (unsigned int trial = 0; trial < n_components_; ++trial) {
+            if (!used_[test * n_components_ + trial]) continue;
+            const auto& columns = space_->local[trial];
+            const double* block = blocks_[test * n_components_ + trial].data();
+            for (std::size_t i = 0; i < rows.size(); ++i)
+                for (std::size_t k = 0; k < columns.size(); ++k)
+                    jacobian(rows[i], columns[k]) = block[i * columns.size() + k];
+        }
+    }
+}
+
+}  // namespace endoflow::phasefield

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "phasefield/fem/scalar_basis.h"
+#include "phasefield/fem/space.h"
+
+namespace endoflow::phasefield {
+
+/// A shape function or its derivative, as it enters a weak form.
+enum class Op : unsigned int { value = 0, dr = 1, dz = 2 };
+
+/// One coefficient per quadrature point.
+using Coefficients = std::vector<double>;
+
+/// The residual R and Jacobian J of a weak form on one cell, component by component.
+///
+/// The weak forms are written as sums of
+///     residual(I, A, w):            R_I[i]    += Σ_q w_q A N_i(q)
+///     jacobian(I, A, K, B, w):      J_IK[i,k] += Σ_q w_q A N_i(q) B N_k(q)
+///     linear(I, A, K, B, w):        both, for a term linear in component K of the present iterate
+/// where I is the test function's component, A, B ∈ {N, ∂N/∂r, ∂N/∂z} and w_q contains the measure.
+class LocalSystem {
+  public:
+    /// `twice`: the component whose second derivatives are evaluated, too.
+    LocalSystem(const Space& space, const dealii::Quadrature<2>& quadrature, std::optional<unsigned int> twice = {});
+
+    /// Starts a cell: zero residual and Jacobian, and the iterate's values at the quadrature points.
+    void start(const CellBox& box, const dealii::Vector<double>& iterate);
+
+    void residual(unsigned int test, Op test_op, const Coefficients& weight);
+    void jacobian(unsigned int test, Op test_op, unsigned int trial, Op trial_op, const Coefficients& weight);
+    /// The sum over all three B, their weights in the order of Op; nullptr where there is none.
+    void jacobian(unsigned int test, Op test_op, unsigned int trial, const std::array<const Coefficients*, 3>& weights);
+    void linear(unsigned int test, Op test_op, unsigned int trial, Op trial_op, const Coefficients& weight);
+
+    /// The present iterate's component (first derivatives, of one component second ones).
+    [[nodiscard]] const ScalarField& field(unsigned int component) const { return fields_[component]; }
+    [[nodiscard]] const Coefficients& field(unsigned int component, Op op) const;
+    [[nodiscard]] const ScalarBasis& basis(unsigned int component) const { return *bases_[component]; }
+    [[nodiscard]] const CellBox& box() const { return box_; }
+
+    /// Copy J and −R into the cell numbering of the space.
+    void write(dealii::FullMatrix<double>& jacobian, dealii::Vector<double>& right_hand_side) const {
+        write_jacobian(jacobian);
+        write_residual(right_hand_side);
+    }
+    void write_jacobian(dealii::FullMatrix<double>& jacobian) const;
+    void write_residual(dealii::Vector<double>& right_hand_side) const;
+
+  private:
+    [[nodiscard]] const std::vector<double>& shapes(unsigned int component, Op op) const;
+    [[nodiscard]] double scale(Op op) const;
+
+    const Space* space_;
+    std::optional<unsigned int> twice_;
+    unsigned int n_components_;
+    std::vector<std::shared_ptr<const ScalarBasis>> bases_;
+    std::vector<ScalarField> fields_;
+    std::vector<std::vector<double>> residuals_;
+    std::vector<std::vector<double>> blocks_;  // [test * n_components + trial][i * n_trial + k]
+    std::vector<char> used_;
+    CellBox box_{};
+    Coefficients product_, columns_, scaled_;
+    std::vector<double> coefficients_;
+};
+
+}  // namespace endoflow::phasefield

@@ -1,0 +1,73 @@
+#include "phasefield/fem/mesh.h"
+
+#include <deal.II/grid/grid_generator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace endoflow::phasefield {
+
+namespace {
+
+/// Cells of the coarse mesh in the directions r and z.
+std::vector<unsigned int> coarse_cells(const Parameters& p) {
+    if (!(p.phase_field.cell_size > 0)) throw std::invalid_argument("coarse mesh: the cell size has not been chosen");
+    const double size = p.phase_field.cell_size * std::pow(2.0, p.phase_field.far_refinements);
+    const auto cells = [size](double length, unsigned int multiple) {
+        return multiple * std::max(1u, static_cast<unsigned int>(std::lround(length / (size * multiple))));
+    };
+    return {cells(p.domain.radius, 1), cells(p.domain.height, 2)};
+}
+
+}  // namespace
+
+double layer_cell_size(const Parameters& p) {
+    const auto cells = coarse_cells(p);
+    return std::max(p.domain.radius / cells[0], p.domain.height / cells[1]) /
+           std::pow(2.0, p.phase_field.far_refinements);
+}
+
+std::unique_ptr<Mesh> coarse_mesh(const Parameters& p, MPI_Comm communicator) {
+    auto mesh = std::make_unique<Mesh>(communicator, dealii::Triangulation<2>::limit_level_difference_at_vertices);
+    dealii::GridGenerator::subdivided_hyper_rectangle(*mesh, coarse_cells(p), dealii::Point<2>(0, 0),
+                                                      dealii::Point<2>(p.domain.radius, p.domain.height), true);
+    return mesh;
+}
+
+double distance_to_cell(const CellBox& box, const std::vector<PlanePoint>& curve) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto& point : curve) {
+        const double dr = std::max({box.r0 - point.r, point.r - box.r0 - box.hr, 0.0});
+        const double dz = std::max({box.z0 - point.z, point.z - box.z0 - box.hz, 0.0});
+        nearest = std::min(nearest, dr * dr + dz * dz);
+    }
+    return std::sqrt(nearest);
+}
+
+bool flag_bands(Mesh& mesh, const std::vector<RefinedBand>& bands) {
+    for (const auto& cell : mesh.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        const CellBox box = cell_box(cell);
+        const auto level = static_cast<unsigned int>(cell->level());
+        bool refine = false, keep = level == 0;
+        for (const auto& band : bands) {
+            if (band.level < level) continue;
+            const double distance = distance_to_cell(box, band.curve);
+            refine = refine || (band.level > level && distance < band.inner);
+            keep = keep || distance <= band.outer;
+        }
+        if (refine)
+            cell->set_refine_flag();
+        else if (!keep)
+            cell->set_coarsen_flag();
+    }
+    mesh.prepare_coarsening_and_refinement();
+    bool changes = false;
+    for (const auto& cell : mesh.active_cell_iterators())
+        changes = changes || (cell->is_locally_owned() && (cell->refine_flag_set() || cell->coarsen_flag_set()));
+    return dealii::Utilities::MPI::max(changes ? 1 : 0, mesh.get_communicator()) == 1;
+}
+
+}  // namespace endoflow::phasefield

@@ -1,0 +1,27 @@
+#pragma once
+
+namespace endoflow::phasefield {
+
+/// Integrals over the layer, with 2πr; collective.
+struct LayerIntegrals {
+    double area;        // ½ ∫|∇φ| [nm²]
+    double molecules;   // ½ ∫|∇φ| c [nm²]
+    double stretching;  // ½ ∫|∇φ| s [nm²]
+};
+
+/// What one time step did; collective.
+struct StepDiagnostics {
+    double bending_energy;        // (D) [pN nm]
+    double viscous_dissipation;   // ∫ ½ ν D:D [pN nm/µs]
+    double mobility_dissipation;  // ∫ γ g²
+    double tension_power;         // ∫ λ |∇φ| P:∇u: the tension's, 0 if the membrane does not stretch anywhere
+    double transport_power;  // ∫ ∂E/∂c (∂c/∂t + u·∇c): what molecules that move along the membrane add to E
+    double area_strain_max;           // max |s − 1| on |φ| < 0.9
+    double thickness_error_max;       // max | √2 ε|∇φ|/(1 − φ²) − 1 | along the membrane, on |φ| < 0.5
+    double profile_error_max;         // the same on |φ| < 0.9, where the layers of two parts of the membrane may meet
+    double motion_max;                // max |φ − φⁿ|/|∇φⁿ| on |φ| < 0.9 [nm]
+    double net_vertical_force = 0;    // of the membrane on the fluid [pN]; the pinned rim takes it up
+    double extracellular_inflow = 0;  // −∮ ½(1 + φ) u·n dA [nm³/µs]
+};
+
+}  // namespace endoflow::phasefield

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include "phasefield/contour/contour.h"
+#include "phasefield/schemes/interface/diagnostics.h"
+#include "shared/output/checkpoint.h"
+
+namespace endoflow::phasefield {
+
+/// What a step led to.
+struct StepOutcome {
+    StepDiagnostics diagnostics;
+    Contour contour;
+    std::string rejection;  // why the step must be repeated with a smaller one; empty when it may be kept
+};
+
+/// A discretisation in space and time with the state it has reached. The time loop drives it and knows nothing else.
+/// All calls are collective.
+class Scheme {
+  public:
+    Scheme() = default;
+    Scheme(const Scheme&) = delete;
+    Scheme& operator=(const Scheme&) = delete;
+    virtual ~Scheme() = default;
+
+    /// The flat membrane with its patch of molecules at rest.
+    virtual StepOutcome start() = 0;
+    /// The state that `save` wrote.
+    virtual StepOutcome load(const std::filesystem::path& directory, const Checkpoint& checkpoint) = 0;
+    virtual void save(const std::filesystem::path& directory, Checkpoint& checkpoint) = 0;
+
+    /// The step to take now; it ends at `deadline` when that is near. [µs]
+    [[nodiscard]] virtual double step(double time, double deadline) const = 0;
+    /// Tries a step and leaves the state alone. Throws SolverError when a system cannot be solved.
+    virtual StepOutcome attempt(double time, double tau) = 0;
+    /// Makes the last attempt the state.
+    virtual void keep(double time, double tau, const StepOutcome& outcome) = 0;
+    /// Forgets the last attempt. Throws SolverError("step-size-underflow", …) when smaller steps make no sense.
+    virtual void reject(double time, double tau) = 0;
+
+    /// Adapts the mesh to the membrane if it has moved far enough.
+    virtual void follow(const MembraneCurve& curve) = 0;
+    [[nodiscard]] virtual LayerIntegrals integrate() const = 0;
+    /// Whether contour_at() and write_fields() know the state at any time of the last step; otherwise steps end there.
+    [[nodiscard]] virtual bool interpolates() const { return false; }
+    /// The membrane at a time [µs] within the last step, of schemes that interpolate.
+    [[nodiscard]] virtual Contour contour_at(double /*time*/) const { throw std::logic_error("no interpolation"); }
+    virtual void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
+                              double time) const = 0;
+    [[nodiscard]] virtual double unknowns() const = 0;
+    [[nodiscard]] virtual double cells() const = 0;
+};
+
+}  // namespace endoflow::phasefield

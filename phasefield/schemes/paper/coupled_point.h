@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "phasefield/fem/local_system.h"
+#include "phasefield/schemes/paper/bending.h"
+#include "phasefield/schemes/paper/fields.h"
+#include "phasefield/schemes/paper/interface_geometry.h"
+
+namespace endoflow::phasefield::paper {
+
+/// Everything the coupled weak form of one time step needs on one cell besides the iterate (which LocalSystem holds):
+/// the fields of time level n at the quadrature points. One entry per quadrature point.
+struct CoupledPoint {
+    double r, measure;              // radius [nm]; r dr dz with the quadrature weight [nm³]
+    LevelSetPoint phi;              // φⁿ
+    LayerGeometry layer;            // |∇φⁿ|, n, P
+    ProfileRelaxation relaxation;   // zero unless it is switched on
+    double viscosity;               // ν(φⁿ)
+    double velocity_r, velocity_z;  // uⁿ (inertia)
+    double moment;                  // (β f)ⁿ
+    double c_r, c_z;                // ∇cⁿ
+    BendingCoefficients bending;    // β(cⁿ), C(cⁿ)
+    double stretching;              // sⁿ
+};
+
+/// Numbers of one time step.
+struct StepCoefficients {
+    double tau;  // [µs]
+    PhaseFieldParameters numerics;
+    FluidParameters fluid;
+};
+
+using CoupledPoints = std::vector<CoupledPoint>;
+
+/// Terms of (32)-(34) and of (35)-(37), time-discretised as in Sec. 3. Each adds its residual and Jacobian.
+void add_flow_terms(const CoupledPoints& points, const StepCoefficients& step, LocalSystem& local);
+void add_willmore_terms(const CoupledPoints& points, const StepCoefficients& step, LocalSystem& local);
+
+}  // namespace endoflow::phasefield::paper

@@ -1,0 +1,50 @@
+#include "phasefield/schemes/paper/step_control.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "shared/support/error.h"
+
+namespace endoflow::phasefield::paper {
+
+namespace {
+
+constexpr double safety = 0.8;
+constexpr double worthwhile_growth = 1.2;   // a new step length costs a factorisation
+constexpr double smallest_fraction = 1e-4;  // of the first step
+
+}  // namespace
+
+StepControl::StepControl(const Parameters& p)
+    : nominal(p.time.initial_step),
+      initial_(p.time.initial_step),
+      limit_(std::min(p.phase_field.max_step, p.time.max_step)),
+      max_motion_(p.phase_field.max_motion),
+      ramp_steps_(p.phase_field.ramp_steps) {}
+
+double StepControl::step(double time, double deadline) const {
+    const double left = deadline - time;
+    if (nominal >= left * (1 - 1e-9)) return left;
+    return nominal >= 0.5 * left ? 0.5 * left : nominal;  // no tiny last step
+}
+
+void StepControl::accept(double tau, double motion) {
+    since_doubling += 1;
+    const double allowed = motion > 0 ? tau * safety * max_motion_ / motion : std::numeric_limits<double>::infinity();
+    if (since_doubling >= ramp_steps_ && worthwhile_growth * nominal <= allowed) {
+        nominal = std::min(2 * nominal, allowed);
+        since_doubling = 0;
+    }
+    nominal = std::min({nominal, limit_, allowed});
+}
+
+void StepControl::reject(double time) {
+    nominal *= 0.5;
+    since_doubling = 0;
+    if (nominal < smallest_fraction * initial_)
+        throw SolverError("step-size-underflow", "no acceptable time step at t = " + std::to_string(time) + " µs",
+                          "use a smaller phase_field.cell_size, a larger max_motion or a larger tension_extension");
+}
+
+}  // namespace endoflow::phasefield::paper

@@ -1,0 +1,184 @@
+#include "phasefield/schemes/production/assembly.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <type_traits>
+
+namespace endoflow::phasefield::production {
+
+namespace {
+
+constexpr std::size_t n_features = 3 * n_fields;
+constexpr Op operations[3] = {Op::value, Op::dr, Op::dz};
+using FeatureDual = Dual<n_features>;
+
+template <class Number>
+const Number& feature(const AtPoint<Number>& at, unsigned int operation) {
+    return operation == 0 ? at.value : operation == 1 ? at.r : at.z;
+}
+
+template <class Number>
+Fields<Number> fields_from(const PointValues& values) {
+    Fields<Number> x;
+    for (unsigned int f = 0; f < n_fields; ++f) {
+        Number* parts[3] = {&x[f].value, &x[f].r, &x[f].z};
+        for (unsigned int o = 0; o < 3; ++o) {
+            *parts[o] = values[f][o];
+            if constexpr (std::is_same_v<Number, FeatureDual>) parts[o]->partial[3 * f + o] = 1;
+        }
+    }
+    return x;
+}
+
+}  // namespace
+
+EquationPattern::EquationPattern(const Parameters& p, const BendingModel& model) {
+    // Values without special meaning: everything that can depend on something does.
+    PointValues values;
+    for (unsigned int f = 0; f < n_fields; ++f) values[f] = {0.31 + 0.05 * f, 0.27 + 0.03 * f, 0.41 - 0.02 * f};
+    PointHistory past;
+    past.normal = past.molecules_normal = {0.6, 0.8};
+    const auto rows = point_equations(fields_from<FeatureDual>(values), 3.0, past, {0.3, 0.2},
+                                      {1.0, p.phase_field, p.fluid, p.molecules, {}}, model);
+    for (unsigned int row = 0; row < n_features; ++row)
+        for (unsigned int column = 0; column < n_features; ++column)
+            if (feature(rows[row / 3], row % 3).partial[column] != 0) entries.push_back({row, column});
+}
+
+unsigned int gauss_points(const PhaseFieldParameters& p) {
+    return static_cast<unsigned int>(std::max({p.degree, p.velocity_degree, p.surface_degree})) + 3;
+}
+
+namespace {
+
+/// The equations at the quadrature points of one cell after the other.
+class CellEquations {
+  public:
+    CellEquations(const Space& space, const BendingModel& model, const StepNumbers& step, const StepHistory& history,
+                  const Vector& iterate)
+        : quadrature(gauss_points(step.numerics)),
+          local(space, quadrature, distance),
+          model_(&model),
+          step_(&step),
+          iterate_(&iterate),
+          history_(&history),
+          values_(space.element.n_dofs_per_cell()) {}
+
+    /// Calls visit(q, measure, rows) at the quadrature points of the cell; measure is r dr dz.
+    template <class Number, class Visit>
+    void on_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell, const Visit& visit) {
+        const CellBox box = cell_box(cell);
+        const auto& past = history_->points.at(cell->active_cell_index());
+        const auto& manufactured = history_->manufactured;
+        cell->get_dof_values(*iterate_, values_);
+        local.start(box, values_);
+        const ScalarField& psi = local.field(distance);
+        for (unsigned int q = 0; q < quadrature.size(); ++q) {
+            const double r = box.r0 + box.hr * quadrature.point(q)[0];
+            PointValues values;
+            for (unsigned int f = 0; f < n_fields; ++f)
+                values[f] = {local.field(f).value[q], local.field(f).r[q], local.field(f).z[q]};
+            const Direction& n = past[q].normal;
+            const GradientChange change{n.r * psi.rr[q] + n.z * psi.rz[q], n.r * psi.rz[q] + n.z * psi.zz[q]};
+            auto rows = point_equations(fields_from<Number>(values), r, past[q], change, *step_, *model_);
+            if (manufactured)
+                take_off(manufactured(r, box.z0 + box.hz * quadrature.point(q)[1]), r, past[q], change, rows);
+            visit(q, quadrature.weight(q) * box.hr * box.hz * r, rows);
+        }
+    }
+
+    const dealii::QGauss<2> quadrature;
+    LocalSystem local;
+
+  private:
+    template <class Number>
+    void take_off(const PointValues& solution, double r, const PointHistory& past, const GradientChange& change,
+                  Fields<Number>& rows) const {
+        const auto own = point_equations(fields_from<double>(solution), r, past, change, *step_, *model_);
+        for (unsigned int f = 0; f < n_fields; ++f) {
+            rows[f].value = rows[f].value - own[f].value;
+            rows[f].r = rows[f].r - own[f].r;
+            rows[f].z = rows[f].z - own[f].z;
+        }
+    }
+
+    const BendingModel* model_;
+    const StepNumbers* step_;
+    const Vector* iterate_;
+    const StepHistory* history_;
+    dealii::Vector<double> values_;
+};
+
+/// The loop over cells: residual, and the Jacobian when Number carries derivatives.
+template <class Number>
+void assemble_cells(const Space& space, const EquationPattern& pattern, CellEquations equations,
+                    CondensedSystem& system) {
+    constexpr bool with_jacobian = std::is_same_v<Number, FeatureDual>;
+    LocalSystem& local = equations.local;
+    const unsigned int n = space.element.n_dofs_per_cell(), n_points = equations.quadrature.size();
+    dealii::FullMatrix<double> cell_matrix(with_jacobian ? n : 0, with_jacobian ? n : 0);
+    dealii::Vector<double> cell_rhs(n);
+    std::vector<Coefficients> residual(n_features, Coefficients(n_points)),
+        jacobian(with_jacobian ? pattern.entries.size() : 0, Coefficients(n_points));
+
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        equations.on_cell<Number>(cell, [&](unsigned int q, double measure, const auto& rows) {
+            for (unsigned int k = 0; k < n_features; ++k)
+                residual[k][q] = measure * value_of(feature(rows[k / 3], k % 3));
+            if constexpr (with_jacobian)
+                for (std::size_t k = 0; k < pattern.entries.size(); ++k) {
+                    const auto [row, column] = pattern.entries[k];
+                    jacobian[k][q] = measure * feature(rows[row / 3], row % 3).partial[column];
+                }
+        });
+        for (unsigned int k = 0; k < n_features; ++k) local.residual(k / 3, operations[k % 3], residual[k]);
+        if constexpr (with_jacobian) {
+            const auto& entries = pattern.entries;  // all derivatives with respect to one field follow each other
+            for (std::size_t k = 0; k < entries.size();) {
+                const unsigned int row = entries[k].row, trial = entries[k].column / 3;
+                std::array<const Coefficients*, 3> weights{};
+                for (; k < entries.size() && entries[k].row == row && entries[k].column / 3 == trial; ++k)
+                    weights[entries[k].column % 3] = &jacobian[k];
+                local.jacobian(row / 3, operations[row % 3], trial, weights);
+            }
+            local.write_jacobian(cell_matrix);
+        }
+        local.write_residual(cell_rhs);
+        if constexpr (with_jacobian)
+            system.add(cell, cell_matrix, cell_rhs);
+        else
+            system.add(cell, cell_rhs);
+    }
+}
+
+}  // namespace
+
+void assemble(const Space& space, const EquationPattern& pattern, const BendingModel& model, const StepNumbers& step,
+              const StepHistory& history, const Vector& iterate, CondensedSystem& system) {
+    system.start();
+    assemble_cells<FeatureDual>(space, pattern, CellEquations(space, model, step, history, iterate), system);
+}
+
+void assemble_residual(const Space& space, const EquationPattern& pattern, const BendingModel& model,
+                       const StepNumbers& step, const StepHistory& history, const Vector& iterate,
+                       CondensedSystem& system) {
+    system.start_right_hand_side();
+    assemble_cells<double>(space, pattern, CellEquations(space, model, step, history, iterate), system);
+}
+
+double net_vertical_force(const Space& space, const BendingModel& model, const StepNumbers& step,
+                          const StepHistory& history, const Vector& solution) {
+    CellEquations equations(space, model, step, history, solution);
+    double sum = 0;
+    for (const auto& cell : space.dofs.active_cell_iterators())
+        if (cell->is_locally_owned())
+            equations.on_cell<double>(cell, [&](unsigned int /*q*/, double measure, const auto& rows) {
+                sum -= two_pi * measure * rows[velocity_z].value;
+            });
+    return dealii::Utilities::MPI::sum(sum, space.dofs.get_communicator());
+}
+
+}  // namespace endoflow::phasefield::production

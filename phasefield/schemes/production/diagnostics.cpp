@@ -1,0 +1,97 @@
+#include "phasefield/schemes/production/diagnostics.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "phasefield/fem/component_field.h"
+#include "phasefield/schemes/production/assembly.h"
+
+namespace endoflow::phasefield::production {
+
+SolutionMeasures measure_solution(const Space& space, const BendingModel& model, const StepNumbers& step,
+                                  const Vector& before, const Vector& predicted, const Vector& rate,
+                                  const Vector& solution) {
+    const auto& numerics = step.numerics;
+    const dealii::QGauss<2> quadrature(gauss_points(numerics));
+    LocalSystem local(space, quadrature);
+    ComponentField molecule_rate(space, molecule_density, quadrature);
+    ComponentField old_distance(space, distance, quadrature), predicted_distance(space, distance, quadrature);
+    dealii::Vector<double> values(space.element.n_dofs_per_cell());
+    std::vector<double> sums(8, 0.0), maxima(5, 0.0);
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        const CellBox box = cell_box(cell);
+        cell->get_dof_values(solution, values);
+        local.start(box, values);
+        const auto &old_psi = old_distance.on(cell, box, before), &guess = predicted_distance.on(cell, box, predicted),
+                   &c_rate = molecule_rate.on(cell, box, rate);
+        const auto &ur = local.field(velocity_r), &uz = local.field(velocity_z), &psi = local.field(distance),
+                   &lambda = local.field(tension), &layer_pressure = local.field(pressure_layer),
+                   &c = local.field(molecule_density), &s = local.field(membrane_stretch), &b = local.field(moment),
+                   &g = local.field(normal_force);
+        for (unsigned int q = 0; q < quadrature.size(); ++q) {
+            const double r = box.r0 + box.hr * quadrature.point(q)[0];
+            const double w = two_pi * quadrature.weight(q) * box.hr * box.hz * r;
+            const auto layer = layer_profile(psi.value[q], numerics.epsilon);
+            const double gradient = std::hypot(psi.r[q], psi.z[q]), density = membrane_density(layer, step.weight);
+            const double length = std::hypot(gradient, gradient_floor);
+            const auto bending = stiffness_of(c.value[q], model);
+            const double K = b.value[q] / bending.beta;
+            const double nu = layer_viscosity(layer.phi, step.fluid, step.weight, numerics.viscosity_mean);
+            const double hoop = ur.value[q] / r, shear = ur.z[q] + uz.r[q];
+            const double stretching =
+                surface_divergence(psi.r[q] / length, psi.z[q] / length, ur.r[q], hoop, uz.z[q], shear);
+            sums[0] += w * layer.delta;
+            sums[1] += w * density * c.value[q];
+            sums[2] += w * density * s.value[q];
+            sums[3] += w * 0.5 * layer.delta * bending.beta * K * K;
+            sums[4] += w * nu * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
+            if (step.fluid.dynamics == Dynamics::geometric)
+                sums[5] += w * step.fluid.normal_mobility * g.value[q] * g.value[q] * density;
+            sums[6] += w * (density * lambda.value[q] * stretching -
+                            layer.delta * layer_pressure.value[q] * (ur.r[q] + hoop + uz.z[q]));
+            const double e = molecular_energy(b.value[q], K, bending);
+            sums[7] += w * density * e * (c_rate.value[q] + ur.value[q] * c.r[q] + uz.value[q] * c.z[q]);
+            if (std::abs(layer.phi) > layer_edge) continue;
+            maxima[0] = std::max(maxima[0], std::abs(s.value[q] - 1));
+            const double thickness_error = std::abs(gradient - 1);
+            if (std::abs(layer.phi) < layer_middle) maxima[1] = std::max(maxima[1], thickness_error);
+            maxima[2] = std::max(maxima[2], thickness_error);
+            maxima[3] = std::max(maxima[3], std::abs(psi.value[q] - old_psi.value[q]));
+            maxima[4] = std::max(maxima[4], std::abs(psi.value[q] - guess.value[q]));
+        }
+    }
+    const MPI_Comm communicator = space.dofs.get_communicator();
+    dealii::Utilities::MPI::sum(sums, communicator, sums);
+    dealii::Utilities::MPI::max(maxima, communicator, maxima);
+    return {{sums[0], sums[1], sums[2]},
+            {sums[3], sums[4], sums[5], sums[6], sums[7], maxima[0], maxima[1], maxima[2], maxima[3]},
+            maxima[4]};
+}
+
+SolutionMeasures measure_solution(const Space& space, const BendingModel& model, const StepNumbers& step,
+                                  const Vector& solution) {
+    Vector at_rest = space.vector();
+    at_rest.update_ghost_values();
+    return measure_solution(space, model, step, solution, solution, at_rest, solution);
+}
+
+double layer_increment(const Space& space, double epsilon, const Vector& increment, const Vector& solution) {
+    const dealii::QGauss<2> quadrature(space.degrees[distance] + 1);
+    ComponentField change(space, distance, quadrature), psi(space, distance, quadrature);
+    double largest = 0;
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        const CellBox box = cell_box(cell);
+        const auto &present = psi.on(cell, box, solution), &d = change.on(cell, box, increment);
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+            if (std::abs(equilibrium_profile(present.value[q], epsilon)) <= layer_edge)
+                largest = std::max(largest, std::abs(d.value[q]));
+    }
+    return dealii::Utilities::MPI::max(largest, space.dofs.get_communicator());
+}
+
+}  // namespace endoflow::phasefield::production

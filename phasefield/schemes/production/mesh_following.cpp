@@ -1,0 +1,97 @@
+#include <deal.II/distributed/solution_transfer.h>
+
+#include "phasefield/checkpoint/mesh_checkpoint.h"
+#include "phasefield/schemes/production/production_scheme.h"
+#include "phasefield/schemes/production/refinement.h"
+
+namespace endoflow::phasefield::production {
+
+namespace {
+
+using Transfer = dealii::parallel::distributed::SolutionTransfer<2, Vector>;
+
+constexpr int most_passes = 8;  // a cell changes by one level per pass
+
+std::vector<const Vector*> addresses(const std::vector<Vector>& vectors) {
+    std::vector<const Vector*> out;
+    for (const auto& vector : vectors) out.push_back(&vector);
+    return out;
+}
+
+}  // namespace
+
+bool ProductionScheme::adapt_once(const MembraneCurve& curve) {
+    if (!flag_bands(*mesh_, refined_bands(curve, parameters_))) return false;
+
+    Transfer transfer(space_.dofs);
+    transfer.prepare_for_coarsening_and_refinement(addresses(solutions_));
+    mesh_->execute_coarsening_and_refinement();
+    distribute();
+    std::vector<Vector> carried(solutions_.size(), space_.vector());
+    std::vector<Vector*> targets;
+    for (auto& vector : carried) targets.push_back(&vector);
+    transfer.interpolate(targets);
+    for (auto& vector : carried) space_.hanging_nodes.distribute(vector);
+    solutions_ = std::move(carried);
+    for (const auto& solution : solutions_) solution.update_ghost_values();
+    return true;
+}
+
+void ProductionScheme::follow(const MembraneCurve& curve) {
+    if (moved_ < follow_after_motion(parameters_)) return;
+    moved_ = 0;
+    bool adapted = false;
+    for (int pass = 0; pass < most_passes && adapt_once(curve); ++pass) adapted = true;
+    if (!adapted) return;
+    solver_.reinit(space_);
+    // Cells are coarsened outside of the layer alone; what that changes in ∫δ c and ∫δ s is restored to round-off.
+    const auto present = [this] { return measure_solution(space_, model_, numbers_, solutions_.front()).integrals; };
+    const LayerIntegrals after = present();
+    for (auto& solution : solutions_) {
+        if (after.molecules > 0)
+            scale_component(space_, molecule_density, integrals_.molecules / after.molecules, solution);
+        scale_component(space_, membrane_stretch, integrals_.stretching / after.stretching, solution);
+        impose_boundary_values(space_, parameters_, solution);
+    }
+    integrals_ = present();
+}
+
+void ProductionScheme::save(const std::filesystem::path& directory, Checkpoint& checkpoint) {
+    checkpoint.scalars["nominal_step"] = nominal_;
+    checkpoint.scalars["speed"] = speed_;
+    checkpoint.scalars["moved"] = moved_;
+    checkpoint.scalars["steps_since_start"] = since_start_;
+    checkpoint.arrays["solution_times"] = times_;
+    make_empty_directory(directory, mesh_->get_communicator());
+    Transfer transfer(space_.dofs);
+    auto vectors = addresses(solutions_);
+    for (const Vector* vector : solver_.save(checkpoint)) {
+        vector->update_ghost_values();
+        vectors.push_back(vector);
+    }
+    transfer.prepare_for_serialization(vectors);
+    mesh_->save((directory / "mesh").string());
+    MPI_Barrier(mesh_->get_communicator());
+}
+
+StepOutcome ProductionScheme::load(const std::filesystem::path& directory, const Checkpoint& checkpoint) {
+    nominal_ = checkpoint.scalar("nominal_step");
+    speed_ = checkpoint.scalar("speed");
+    moved_ = checkpoint.scalar("moved");
+    since_start_ = checkpoint.scalar("steps_since_start");
+    times_ = checkpoint.array("solution_times");
+    load_mesh(directory, *mesh_);
+    renew();
+    Transfer transfer(space_.dofs);
+    solutions_.assign(times_.size(), space_.vector());
+    std::vector<Vector*> targets;
+    for (auto& vector : solutions_) targets.push_back(&vector);
+    std::vector<Vector> of_factors(StepSolver::saved_vectors(checkpoint), space_.vector());
+    for (auto& vector : of_factors) targets.push_back(&vector);
+    transfer.deserialize(targets);
+    for (const Vector* vector : targets) vector->update_ghost_values();
+    solver_.load(space_, numbers_, checkpoint, std::move(of_factors));
+    return present();
+}
+
+}  // namespace endoflow::phasefield::production

@@ -1,0 +1,241 @@
+#include "phasefield/schemes/production/production_scheme.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "phasefield/layer/boundary_flux.h"
+#include "phasefield/output/field_file.h"
+#include "phasefield/schemes/production/bdf.h"
+#include "phasefield/schemes/production/refinement.h"
+#include "shared/model/initial_condition.h"
+#include "shared/support/error.h"
+
+namespace endoflow::phasefield::production {
+
+namespace {
+
+constexpr std::size_t highest_order = 3;
+constexpr std::size_t guess_points = 2;  // times from which Newton's method and the normals start
+constexpr double first_steps = 4;        // before the error can be estimated
+constexpr double error_part = 0.05;      // of time.tolerance for one step: the errors of the steps add up
+constexpr double safety = 0.85;          // of the step
+constexpr double largest_growth = 1.5;   // per step
+constexpr double almost_all = 0.7;       // of the time left: one step, or ever shorter ones would approach the end
+constexpr double tolerated_excess = 2;   // of the error over its tolerance, beyond which a step is repeated
+constexpr double newton_part = 0.002;    // of the step's tolerance to which Newton's method converges
+constexpr double smallest_step = 1e-5;   // of the first one
+constexpr double relaxation_per_speed = 2000;  // M is at most this many times the speed of the membrane
+constexpr double largest_motion = 1.5;         // of the membrane in one step [ε]
+
+/// Largest error of the membrane's position per step [nm].
+double position_tolerance(const Parameters& p) {
+    return error_part * p.time.tolerance * p.domain.radius;
+}
+
+}  // namespace
+
+ProductionScheme::ProductionScheme(const Parameters& parameters, MPI_Comm communicator)
+    : parameters_(parameters),
+      model_(parameters.membrane),
+      mesh_(coarse_mesh(parameters, communicator)),
+      space_(*mesh_, field_degrees(parameters.phase_field)),
+      numbers_{0, parameters.phase_field, parameters.fluid, parameters.molecules,
+               membrane_weight(parameters.fluid, parameters.phase_field.viscosity_mean)},
+      solver_(parameters, model_, communicator, newton_part * position_tolerance(parameters)),
+      nominal_(parameters.time.initial_step) {}
+
+namespace {
+
+/// φ and the pressure with the layer's part, which are not unknowns themselves.
+class PhysicalFields : public dealii::DataPostprocessor<2> {
+  public:
+    explicit PhysicalFields(double epsilon) : epsilon_(epsilon) {}
+    [[nodiscard]] std::vector<std::string> get_names() const override { return {"phi", "pressure"}; }
+    [[nodiscard]] std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>
+    get_data_component_interpretation() const override {
+        return std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
+            2, dealii::DataComponentInterpretation::component_is_scalar);
+    }
+    [[nodiscard]] dealii::UpdateFlags get_needed_update_flags() const override { return dealii::update_values; }
+    void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<2>& in,
+                               std::vector<dealii::Vector<double>>& out) const override {
+        for (std::size_t q = 0; q < out.size(); ++q) {
+            const auto& value = in.solution_values[q];
+            out[q](0) = equilibrium_profile(value(distance), epsilon_);
+            out[q](1) = value(Field::pressure) + layer_profile(value(distance), epsilon_).delta * value(pressure_layer);
+        }
+    }
+
+  private:
+    double epsilon_;
+};
+
+}  // namespace
+
+void ProductionScheme::distribute() {
+    space_.distribute();
+    close_constraints(space_, parameters_);
+}
+
+void ProductionScheme::renew() {
+    distribute();
+    solver_.reinit(space_);
+}
+
+Contour ProductionScheme::contour(const Vector& solution) const {
+    return extract_contour(contour_fields(space_, solution), parameters_);
+}
+
+StepOutcome ProductionScheme::present() {
+    const Vector& solution = solutions_.front();
+    const auto measures = measure_solution(space_, model_, numbers_, solution);
+    integrals_ = measures.integrals;
+    return {measures.diagnostics, contour(solution), {}};
+}
+
+StepOutcome ProductionScheme::start() {
+    const double z0 = parameters_.domain.membrane_height;
+    MembraneCurve curve;
+    for (double r = 0; r <= parameters_.domain.radius; r += 0.25 * parameters_.phase_field.cell_size) {
+        curve.r.push_back(r);
+        curve.z.push_back(z0);
+        curve.c.push_back(initial_concentration(parameters_.molecules, r));
+    }
+    while (flag_bands(*mesh_, refined_bands(curve, parameters_))) mesh_->execute_coarsening_and_refinement();
+    renew();
+
+    Vector solution = space_.vector();
+    const auto c = [&](double r) { return initial_concentration(parameters_.molecules, r); };
+    interpolate(
+        space_, distance, [&](double, double z) { return z0 - z; }, solution);
+    interpolate(
+        space_, molecule_density, [&](double r, double) { return c(r); }, solution);
+    interpolate(
+        space_, membrane_stretch, [](double, double) { return 1.0; }, solution);
+    interpolate(
+        space_, moment,
+        [&](double r, double) {  // of a flat membrane
+            return model_.stiffness(c(r)).value * model_.spontaneous_curvature(c(r)).value;
+        },
+        solution);
+    finish_interpolation(space_, solution);
+    solutions_ = {solution};
+    solutions_.front().update_ghost_values();
+    times_ = {0};
+    return present();
+}
+
+std::size_t ProductionScheme::order() const {
+    return std::min(highest_order, times_.size());
+}
+
+double ProductionScheme::step(double time, double deadline) const {
+    const double left = deadline - time;
+    if (nominal_ >= almost_all * left) return left;
+    return nominal_ >= 0.5 * left ? 0.5 * left : nominal_;  // no tiny last step
+}
+
+Vector ProductionScheme::polynomial(double time, std::size_t count) const {
+    const auto weights = extrapolation_weights(time, times_, count);
+    Vector out = space_.vector();
+    for (std::size_t j = 0; j < weights.size(); ++j) out.add(weights[j], solutions_[j]);
+    out.update_ghost_values();
+    return out;
+}
+
+StepOutcome ProductionScheme::attempt(double time, double tau) {
+    const double end = time + tau;
+    const auto bdf = bdf_coefficients(end, times_, order());
+    numbers_.rate = bdf.rate;
+    numbers_.profile_relaxation = parameters_.phase_field.profile_relaxation;
+    if (since_start_ > 0)
+        numbers_.profile_relaxation = std::min(numbers_.profile_relaxation, relaxation_per_speed * speed_);
+    const Vector predicted = polynomial(end, std::min(order() + 1, times_.size()));
+    // Extrapolation of higher order would amplify what little the fields go back and forth in the layer's tails: with
+    // the moment's noise, whose alignment is quadratic in it, Newton's first step would throw the whole bud off course.
+    Vector guess = polynomial(end, std::min(guess_points, times_.size()));
+    impose_boundary_values(space_, parameters_, guess);
+    trial_.reinit(guess, true);  // assignment alone could keep the ghosts of an earlier mesh
+    trial_ = guess;
+    trial_.update_ghost_values();
+    const StepHistory history(space_, numbers_, solutions_, bdf.past, extrapolation_weights(end, times_, order()),
+                              guess);
+    solver_.solve(space_, numbers_, history, trial_);
+
+    Vector rate = space_.vector();
+    rate.add(bdf.rate, trial_);
+    for (std::size_t j = 0; j < bdf.past.size(); ++j) rate.add(bdf.past[j], solutions_[j]);
+    rate.update_ghost_values();
+    auto measures = measure_solution(space_, model_, numbers_, solutions_.front(), predicted, rate, trial_);
+    measures.diagnostics.net_vertical_force = net_vertical_force(space_, model_, numbers_, history, trial_);
+    measures.diagnostics.extracellular_inflow =
+        extracellular_inflow(space_, trial_, velocity_r, velocity_z, distance,
+                             [this](double psi) { return equilibrium_profile(psi, parameters_.phase_field.epsilon); });
+    trial_integrals_ = measures.integrals;
+    const double motion = measures.diagnostics.motion_max;
+    const double farthest = largest_motion * parameters_.phase_field.epsilon;
+    const bool estimated = times_.size() > order();
+    const double error = estimated ? measures.step_difference * error_fraction(end, times_, order()) : 0;
+    const double allowed = position_tolerance(parameters_);
+    trial_factor_ = since_start_ < first_steps ? 1 : largest_growth;
+    if (estimated)
+        trial_factor_ = std::min(
+            trial_factor_, safety * std::pow(allowed / std::max(error, 1e-12), 1 / (1 + static_cast<double>(order()))));
+    if (motion > 0) trial_factor_ = std::min(trial_factor_, safety * farthest / motion);
+    StepOutcome outcome{measures.diagnostics, {}, {}};
+    if (!std::isfinite(measures.diagnostics.bending_energy))
+        outcome.rejection = "the energy is not a number";
+    else if (motion > farthest)
+        outcome.rejection = "motion " + std::to_string(motion) + " nm";
+    else if (error > tolerated_excess * allowed)
+        outcome.rejection = "error " + std::to_string(error) + " nm";
+    else
+        outcome.contour = contour(trial_);
+    return outcome;
+}
+
+void ProductionScheme::keep(double time, double tau, const StepOutcome& outcome) {
+    solutions_.insert(solutions_.begin(), trial_);
+    times_.insert(times_.begin(), time + tau);
+    if (times_.size() > highest_order + 1) {
+        solutions_.pop_back();
+        times_.pop_back();
+    }
+    for (const auto& solution : solutions_) solution.update_ghost_values();  // copies do not have them
+    integrals_ = trial_integrals_;
+    // A step that was cut short by a deadline does not shorten the next one.
+    const double next = trial_factor_ * tau;
+    nominal_ = tau < nominal_ && trial_factor_ >= 1 ? std::max(nominal_, next) : next;
+    nominal_ = std::min(nominal_, parameters_.time.max_step);
+    speed_ = outcome.diagnostics.motion_max / tau;
+    moved_ += outcome.diagnostics.motion_max;
+    since_start_ += 1;
+}
+
+void ProductionScheme::reject(double time, double tau) {
+    nominal_ = std::clamp(trial_factor_, 0.2, 0.5) * tau;
+    trial_factor_ = 0;
+    if (nominal_ < smallest_step * parameters_.time.initial_step)
+        throw SolverError("step-size-underflow", "no acceptable time step at t = " + std::to_string(time) + " µs",
+                          "use a smaller phase_field.cell_size or a larger phase_field.profile_relaxation");
+}
+
+void ProductionScheme::write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
+                                    double time) const {
+    using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
+    std::vector<Interpretation> meaning(n_fields, dealii::DataComponentInterpretation::component_is_scalar);
+    meaning[velocity_r] = meaning[velocity_z] = dealii::DataComponentInterpretation::component_is_part_of_vector;
+    dealii::DataOut<2> data;
+    const Vector solution = polynomial(time, times_.size());
+    const PhysicalFields physical(parameters_.phase_field.epsilon);
+    data.add_data_vector(
+        space_.dofs, solution,
+        std::vector<std::string>{"velocity", "velocity", "pressure_outside_layer", "layer_pressure", "lambda",
+                                 "distance", "normal_force", "moment", "c", "chemical_potential", "stretching"},
+        meaning);
+    data.add_data_vector(space_.dofs, solution, physical);
+    data.build_patches(space_.degrees[distance]);
+    write_field_file(run_directory, times, time, mesh_->get_communicator(), data);
+}
+
+}  // namespace endoflow::phasefield::production

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "phasefield/fem/mesh.h"
+#include "phasefield/schemes/interface/scheme.h"
+#include "phasefield/schemes/production/diagnostics.h"
+#include "phasefield/schemes/production/step_solver.h"
+
+namespace endoflow::phasefield::production {
+
+/// Largest cells in the layer, in units of ε: they resolve the distance, which is smooth (the patch's edge is refined
+/// by itself).
+inline constexpr double cell_per_epsilon = 4.0 / 3;
+
+/// All fields at one time level are solved for together by Newton's method; BDF3 in time with the error of ψ
+/// controlled.
+class ProductionScheme : public Scheme {
+  public:
+    ProductionScheme(const Parameters& parameters, MPI_Comm communicator);
+
+    StepOutcome start() override;
+    StepOutcome load(const std::filesystem::path& directory, const Checkpoint& checkpoint) override;
+    void save(const std::filesystem::path& directory, Checkpoint& checkpoint) override;
+    [[nodiscard]] double step(double time, double deadline) const override;
+    StepOutcome attempt(double time, double tau) override;
+    void keep(double time, double tau, const StepOutcome& outcome) override;
+    void reject(double time, double tau) override;
+    void follow(const MembraneCurve& curve) override;
+    [[nodiscard]] LayerIntegrals integrate() const override { return integrals_; }
+    [[nodiscard]] bool interpolates() const override { return true; }
+    [[nodiscard]] Contour contour_at(double time) const override { return contour(polynomial(time, times_.size())); }
+    void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
+                      double time) const override;
+    [[nodiscard]] double unknowns() const override { return static_cast<double>(space_.dofs.n_dofs()); }
+    [[nodiscard]] double cells() const override { return static_cast<double>(mesh_->n_global_active_cells()); }
+    /// So far.
+    [[nodiscard]] unsigned int factorisations() const { return solver_.factorisations(); }
+
+  private:
+    void distribute();
+    void renew();
+    bool adapt_once(const MembraneCurve& curve);
+    /// The polynomial through the newest `count` solutions.
+    [[nodiscard]] Vector polynomial(double time, std::size_t count) const;
+    [[nodiscard]] std::size_t order() const;
+    [[nodiscard]] Contour contour(const Vector& solution) const;
+    /// Measures the newest solution: renews integrals_ and returns the rest.
+    StepOutcome present();
+
+    Parameters parameters_;
+    BendingModel model_;
+    std::unique_ptr<Mesh> mesh_;
+    Space space_;
+    StepNumbers numbers_;
+    StepSolver solver_;
+    std::vector<Vector> solutions_;  // newest first
+    std::vector<double> times_;      // of them [µs]
+    LayerIntegrals integrals_{};
+
+    Vector trial_;
+    LayerIntegrals trial_integrals_{};
+    double trial_factor_ = 1;  // by which the step may grow
+
+    double nominal_;          // the next step [µs]
+    double speed_ = 0;        // of the membrane in the last step [nm/µs]
+    double moved_ = 0;        // since the mesh was made [nm]
+    double since_start_ = 0;  // steps taken
+};
+
+}  // namespace endoflow::phasefield::production

@@ -1,0 +1,97 @@
+#include "phasefield/schemes/production/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace endoflow::phasefield::production {
+
+namespace {
+
+constexpr double edge_cells = 0.75;           // largest cell at the patch's edge, in units of its width
+constexpr double edge_part = 0.47;            // |c − ½| below this is the edge: in the bud 1 − c comes to 0.016
+constexpr double fine_band = 3;               // half-width of the finer cells, in units of ε
+constexpr double neck_cells = 0.25;           // largest cell where the membrane is narrow, in units of its radius there
+constexpr double motion_with_flow = 1.5;      // after which the mesh follows, in units of ε
+constexpr double motion_without_flow = 0.5;   // the same
+constexpr unsigned int most_neck_levels = 2;  // with cells of 4/3 ε: necks below 1.4 ε have left the model anyway
+
+using Indices = std::vector<std::size_t>;
+
+/// Points of the curve, and where they will be when the mesh follows again.
+class Path {
+  public:
+    Path(const MembraneCurve& curve, double distance) : curve_(&curve), ahead_(curve.size()) {
+        if (curve.u_r.size() != curve.size()) return;  // at rest
+        double fastest = 0;
+        for (std::size_t i = 0; i < curve.size(); ++i) {
+            const std::size_t before = i > 0 ? i - 1 : i, after = i + 1 < curve.size() ? i + 1 : i;
+            const double dr = curve.r[after] - curve.r[before], dz = curve.z[after] - curve.z[before];
+            const double speed = (curve.u_z[i] * dr - curve.u_r[i] * dz) / (dr * dr + dz * dz);
+            ahead_[i] = {-speed * dz, speed * dr};  // the velocity's part across the membrane
+            fastest = std::max(fastest, std::hypot(ahead_[i].r, ahead_[i].z));
+        }
+        const double time = fastest > 0 ? distance / fastest : 0;
+        for (auto& step : ahead_) step = {step.r * time, step.z * time};
+    }
+
+    [[nodiscard]] std::vector<PlanePoint> of(const Indices& indices) const {
+        std::vector<PlanePoint> out;
+        for (const std::size_t i : indices) {
+            out.push_back({curve_->r[i], curve_->z[i]});
+            out.push_back({curve_->r[i] + ahead_[i].r, curve_->z[i] + ahead_[i].z});
+        }
+        return out;
+    }
+
+  private:
+    const MembraneCurve* curve_;
+    std::vector<PlanePoint> ahead_;
+};
+
+Indices whole(const MembraneCurve& curve) {
+    Indices out(curve.size());
+    std::iota(out.begin(), out.end(), std::size_t{0});
+    return out;
+}
+
+/// Where the membrane's radius of curvature around the axis is below `radius` [nm].
+Indices narrow_part(const MembraneCurve& curve, double radius) {
+    Indices out;
+    for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
+        const double dr = curve.r[i + 1] - curve.r[i], dz = curve.z[i + 1] - curve.z[i];
+        if ((curve.r[i] + 0.5 * dr) * std::hypot(dr, dz) < radius * std::abs(dz)) out.push_back(i);
+    }
+    return out;
+}
+
+Indices patch_edge(const MembraneCurve& curve) {
+    Indices out;
+    for (std::size_t i = 0; i < curve.size(); ++i)
+        if (std::abs(curve.c[i] - 0.5) < edge_part) out.push_back(i);
+    return out;
+}
+
+}  // namespace
+
+double follow_after_motion(const Parameters& p) {
+    return (p.fluid.dynamics == Dynamics::flow ? motion_with_flow : motion_without_flow) * p.phase_field.epsilon;
+}
+
+std::vector<RefinedBand> refined_bands(const MembraneCurve& curve, const Parameters& parameters) {
+    const auto& p = parameters.phase_field;
+    const auto layer_level = static_cast<unsigned int>(p.far_refinements);
+    const double band = p.band_width * p.epsilon, inner = fine_band * p.epsilon, outer = inner + p.cell_size;
+    const Path path(curve, follow_after_motion(parameters));
+    std::vector<RefinedBand> out{{path.of(whole(curve)), layer_level, band, band + 2 * p.cell_size}};
+    const double wanted = edge_cells * parameters.molecules.interface_width;
+    const auto edge_levels = static_cast<unsigned int>(std::max(0.0, std::ceil(std::log2(p.cell_size / wanted))));
+    if (edge_levels > 0) out.push_back({path.of(patch_edge(curve)), layer_level + edge_levels, inner, outer});
+    for (unsigned int level = 0; level < most_neck_levels; ++level) {
+        const Indices neck = narrow_part(curve, p.cell_size / (1U << level) / neck_cells);
+        if (!neck.empty()) out.push_back({path.of(neck), layer_level + level + 1, inner, outer});
+    }
+    return out;
+}
+
+}  // namespace endoflow::phasefield::production

@@ -1,0 +1,161 @@
+#include "phasefield/schemes/production/step_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "phasefield/schemes/production/diagnostics.h"
+#include "phasefield/solver/anderson.h"
+#include "shared/support/error.h"
+
+namespace endoflow::phasefield::production {
+
+namespace {
+
+constexpr int most_iterations = 16;       // with the same factors: new ones cost more, but help later steps, too
+constexpr int seen_enough = 3;            // iterations after which the number needed is foreseen
+constexpr double farthest = 0.25;         // from where the factors were made, in units of ε: beyond they do not serve
+constexpr int most_factorisations = 4;    // in one step
+constexpr double fast_contraction = 0.5;  // of the changes by new factors: below it the next change can be foreseen
+constexpr double largest_rest = 0.01;     // of the first increment, in all fields: b follows ψ's second derivatives
+constexpr double most_divergence = 10;    // of a change beyond the first one, where Newton's method gives up
+constexpr std::size_t vectors_of_guess = 2;  // of an Origin, before the solutions
+
+}  // namespace
+
+StepSolver::StepSolver(const Parameters& parameters, const BendingModel& model, MPI_Comm communicator, double wanted)
+    : model_(model),
+      pattern_(parameters, model),
+      system_(communicator, "coupled"),
+      epsilon_(parameters.phase_field.epsilon),
+      wanted_(wanted) {}
+
+void StepSolver::reinit(const Space& space) {
+    system_.reinit(space);
+    origin_ = {};
+}
+
+Vector StepSolver::factorise(const Problem& problem, const Vector& solution) {
+    const auto& history = *problem.history;
+    origin_ = {problem.numbers->rate, problem.numbers->profile_relaxation, history.weights, history.ahead, {solution}};
+    origin_.vectors.push_back(*history.extrapolated);
+    for (std::size_t j = 0; j < history.weights.size(); ++j) origin_.vectors.push_back((*history.solutions)[j]);
+    assemble(*problem.space, pattern_, model_, *problem.numbers, history, solution, system_);
+    Vector out = problem.space->vector();
+    system_.forget_factors();
+    system_.solve(*problem.space, out);
+    return out;
+}
+
+Vector StepSolver::increment(const Problem& problem, const Vector& solution) {
+    assemble_residual(*problem.space, pattern_, model_, *problem.numbers, *problem.history, solution, system_);
+    Vector out = problem.space->vector();
+    system_.apply_factors(*problem.space, out);
+    return out;
+}
+
+StepSolver::Ending StepSolver::iterate(const Problem& problem, Vector& solution, const Vector* newton) {
+    std::optional<AndersonMixing> mixing;
+    double first = 0, last = 0;
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+        const bool at_factors = iteration == 0 && newton != nullptr;
+        const Vector step = at_factors ? *newton : increment(problem, solution);
+        const double change = layer_increment(*problem.space, epsilon_, step, solution);
+        char text[24];
+        std::snprintf(text, sizeof text, at_factors ? " %.1e" : " (%.1e)", change);
+        changes_ += text;
+        if (iteration == 0) first = std::max(change, wanted_);
+        if (!std::isfinite(change) || change > most_divergence * first) return Ending::diverged;
+        if (!mixing) mixing.emplace(*problem.space, step);
+        mixing->advance(solution, step);
+        const double contraction = change / last;
+        const bool foreseen = newton != nullptr && iteration > 0 && contraction < fast_contraction;
+        const bool arrived = change <= wanted_ || (foreseen && change * contraction <= 0.5 * wanted_);
+        if (arrived && mixing->norm(step) <= largest_rest) return Ending::converged;
+        if (newton == nullptr && iteration >= seen_enough &&
+            std::log(wanted_ / first) < most_iterations * std::log(change / first) / iteration)
+            break;  // it would take more at this rate
+        last = change;
+    }
+    return Ending::slow;
+}
+
+bool StepSolver::near_factors(const Space& space, const Vector& solution) const {
+    Vector moved = solution;
+    moved -= origin_.vectors.front();
+    moved.update_ghost_values();
+    return layer_increment(space, epsilon_, moved, solution) < farthest * epsilon_;
+}
+
+StepSolver::Ending StepSolver::iterate_with_new_factors(const Problem& problem, Vector& solution) {
+    try {
+        const Vector newton = factorise(problem, solution);
+        return iterate(problem, solution, &newton);
+    } catch (const SolverError&) {
+        if (system_.precision() == Precision::full) throw;
+        return Ending::diverged;
+    }
+}
+
+void StepSolver::solve(const Space& space, const StepNumbers& numbers, const StepHistory& history, Vector& solution) {
+    const Problem problem{&space, &numbers, &history};
+    const Precision precision = system_.precision();
+    const Vector guess = solution;
+    const auto start_again = [&] {
+        solution = guess;
+        solution.update_ghost_values();
+    };
+    changes_.clear();
+    if (system_.has_factors() && near_factors(space, solution)) {
+        const Ending ending = iterate(problem, solution, nullptr);
+        if (ending == Ending::converged) return;
+        if (ending == Ending::diverged) start_again();
+    }
+    for (int k = 0; k < most_factorisations; ++k) {
+        const Ending ending = iterate_with_new_factors(problem, solution);
+        if (ending == Ending::converged) return;
+        if (system_.precision() == Precision::single) {
+            start_again();
+            system_.use(Precision::full);  // from now on, if it serves
+        } else if (ending == Ending::diverged) {
+            break;
+        }
+    }
+    system_.forget_factors();
+    system_.use(precision);
+    throw SolverError("newton-divergence", "Newton's method changed ψ by" + changes_ + " nm",
+                      "use a smaller time.tolerance or phase_field.cell_size");
+}
+
+std::vector<const Vector*> StepSolver::save(Checkpoint& checkpoint) const {
+    const bool there = system_.has_factors();
+    checkpoint.scalars["factors_full_precision"] = system_.precision() == Precision::full ? 1 : 0;
+    checkpoint.scalars["factors_rate"] = origin_.rate;
+    checkpoint.scalars["factors_profile_relaxation"] = origin_.profile_relaxation;
+    checkpoint.arrays["factors_weights"] = there ? origin_.weights : std::vector<double>{};
+    checkpoint.arrays["factors_ahead"] = there ? origin_.ahead : std::vector<double>{};
+    std::vector<const Vector*> out;
+    if (there)
+        for (const auto& vector : origin_.vectors) out.push_back(&vector);
+    return out;
+}
+
+std::size_t StepSolver::saved_vectors(const Checkpoint& checkpoint) {
+    const std::size_t count = checkpoint.array("factors_weights").size();
+    return count == 0 ? 0 : count + vectors_of_guess;
+}
+
+void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint,
+                      std::vector<Vector> vectors) {
+    if (checkpoint.scalar("factors_full_precision") != 0) system_.use(Precision::full);
+    if (vectors.empty()) return;
+    numbers.rate = checkpoint.scalar("factors_rate");
+    numbers.profile_relaxation = checkpoint.scalar("factors_profile_relaxation");
+    const std::vector<Vector> solutions(vectors.begin() + vectors_of_guess, vectors.end());
+    const StepHistory history(space, numbers, solutions, checkpoint.array("factors_weights"),
+                              checkpoint.array("factors_ahead"), vectors[1]);
+    factorise({&space, &numbers, &history}, vectors[0]);
+}
+
+}  // namespace endoflow::phasefield::production

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "phasefield/schemes/production/assembly.h"
+#include "phasefield/solver/condensed_system.h"
+#include "shared/output/checkpoint.h"
+
+namespace endoflow::phasefield::production {
+
+/// Newton's method for the coupled equations of a step. A factorisation costs as much as twenty-five to thirty
+/// iterations with old factors, so those of an earlier step are used, with Anderson's acceleration, for as long as they
+/// serve.
+class StepSolver {
+  public:
+    /// `wanted`: the change of ψ in the layer [nm] to which the method converges.
+    StepSolver(const Parameters& parameters, const BendingModel& model, MPI_Comm communicator, double wanted);
+
+    /// The mesh has changed: nothing is left of the factors.
+    void reinit(const Space& space);
+
+    /// `solution` holds the guess, then the solution, both with ghost values.
+    /// Throws SolverError("newton-divergence", …); the next call starts with new factors.
+    void solve(const Space& space, const StepNumbers& numbers, const StepHistory& history, Vector& solution);
+
+    /// What the factors were made from, so that a restart goes on with the same ones: vectors on the present mesh, and
+    /// numbers. The vectors are addresses of the solver's own.
+    [[nodiscard]] std::vector<const Vector*> save(Checkpoint& checkpoint) const;
+    /// How many vectors were saved.
+    [[nodiscard]] static std::size_t saved_vectors(const Checkpoint& checkpoint);
+    /// Makes the factors again; `numbers` as of any step, `vectors` with ghost values.
+    void load(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint, std::vector<Vector> vectors);
+
+    [[nodiscard]] unsigned int factorisations() const { return system_.factorisations(); }
+
+  private:
+    enum class Ending { converged, slow, diverged };
+
+    /// The equations of one step.
+    struct Problem {
+        const Space* space;
+        const StepNumbers* numbers;
+        const StepHistory* history;
+    };
+
+    /// What the factors were made from.
+    struct Origin {
+        double rate = 0, profile_relaxation = 0;
+        std::vector<double> weights, ahead;
+        std::vector<Vector> vectors;  // the iterate, the guess, the solutions before, newest first
+    };
+
+    [[nodiscard]] bool near_factors(const Space& space, const Vector& solution) const;
+    /// New factors at `solution`, and Newton's increment there.
+    Vector factorise(const Problem& problem, const Vector& solution);
+    [[nodiscard]] Vector increment(const Problem& problem, const Vector& solution);
+    /// Iterations with the present factors; `newton`: the first increment, if they were made at `solution`.
+    Ending iterate(const Problem& problem, Vector& solution, const Vector* newton);
+    /// Diverged, too, when there are no factors of single precision.
+    Ending iterate_with_new_factors(const Problem& problem, Vector& solution);
+
+    BendingModel model_;
+    EquationPattern pattern_;
+    CondensedSystem system_;
+    Origin origin_;
+    double epsilon_, wanted_;
+    std::string changes_;  // of ψ, for the error message
+};
+
+}  // namespace endoflow::phasefield::production
