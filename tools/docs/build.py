@@ -12,7 +12,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from pages import ROOT, pages, title
+from pages import GROUPS, ROOT, pages, title
 
 HERE = Path(__file__).resolve().parent
 PARAMETERS = "parameters"
@@ -48,10 +48,13 @@ def pandoc(text, target, page_title, navigation, depth):
 def navigation(entries, current, depth):
     """Links to the pages; entries: [(name, title)]. The notes in decisions/ are listed on their own pages and the list's alone."""
     items = []
+    notes = [name for name, _ in entries if name.startswith("decisions/") and name != "decisions/index"]
+    heads = {names[0]: group for group, names in [*GROUPS.items(), ("Notes", notes)] if names}
     for name, text in entries:
-        note = name.startswith("decisions/") and name != "decisions/index"
-        if note and not current.startswith("decisions/"):
+        if name in notes and not current.startswith("decisions/"):
             continue
+        if name in heads:
+            items.append(f'<li class="group">{heads[name]}</li>')
         here = ' aria-current="page"' if name == current else ""
         items.append(f'<li><a href="{"../" * depth}{name}.html"{here}>{html.escape(text)}</a></li>')
     return "<ul>" + "".join(items) + "</ul>"

@@ -6,13 +6,21 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 
-#: Order of the pages below docs/; any others follow in the order of their names.
-ORDER = (
-    "index", "install", "first-run", "case-files", "parameters-biology", "outputs", "studies", "paper", "paraview", "python",
-    "model", "boundary-integral", "phase-field", "phase-field-paper", "statics", "verification", "decisions/index",
-    "results/standard-case", "results/sharp-refinement", "results/smooth-case", "results/patch-radii", "results/scheme-paper", "results/paper",
-    "architecture", "developer-guide", "extending", "roadmap",
-)  # fmt: skip
+#: Order of the pages below docs/ by groups; any others follow in the order of their names.
+GROUPS = {
+    "Use": (
+        "index", "install", "first-run", "case-files", "parameters-biology", "outputs", "studies", "paper", "paraview", "python",
+    ),
+    "Methods": (
+        "model", "boundary-integral", "phase-field", "phase-field-paper", "statics", "verification", "decisions/index",
+    ),
+    "Results": (
+        "results/standard-case", "results/sharp-refinement", "results/smooth-case", "results/patch-radii", "results/scheme-paper",
+        "results/paper",
+    ),
+    "Development": ("architecture", "developer-guide", "extending", "roadmap"),
+}  # fmt: skip
+ORDER = tuple(name for group in GROUPS.values() for name in group)
 
 #: A fenced block with an optional comment above it.
 FENCE = re.compile(r"^(?:<!-- (?P<mark>[^\n]*?) -->\n+)?```(?P<kind>\w*)\n(?P<text>.*?)^```$", re.M | re.S)
