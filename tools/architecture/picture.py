@@ -112,15 +112,16 @@ class Part:
         deeper = [name.rstrip("/").split("/")[-1] for name in inner_folders(uses, inner.rstrip("/"))]
         return [inner.rstrip("/").split("/")[-1] + "/", *([" · ".join(deeper)] if deeper else [])]
 
-    def place(self, left, top):
-        """Put frame and boxes to their places."""
-        self.left, self.top, y = left, top, top + TITLE
+    def place(self, left, top, height):
+        """Put the frame, as high as those beside it, and the boxes to their places."""
+        gap = ROW_GAP + (height - self.height) / max(len(self.rows) - 1, 1)
+        self.left, self.top, self.height, y = left, top, height, top + TITLE
         for row in self.rows:
             x = left + (self.width - sum(self.boxes[n].width for n in row) - GAP * (len(row) - 1)) / 2
             for name in row:
                 self.boxes[name].left, self.boxes[name].top = x, y
                 x += self.boxes[name].width + GAP
-            y += max(self.boxes[n].height for n in row) + ROW_GAP
+            y += max(self.boxes[n].height for n in row) + gap
 
     def svg(self):
         """The part as SVG."""
@@ -144,17 +145,18 @@ def line(upper, lower, colour, width=1):
 
 
 def arrange(parts, graph, left, top):
-    """Place parts in rows below each other, those of a row on one ground line; returns width and height."""
+    """Place parts in rows below each other, those of a row equally high; returns width and height."""
     rows = rows_of([f"{name}/" for name in parts], graph)
     rows = [[parts[name] for name in PARTS if f"{name}/" in row] for row in rows]
     width = max(sum(p.width for p in row) + PART_GAP * (len(row) - 1) for row in rows)
     y = top
     for row in rows:
         x = left + (width - sum(p.width for p in row) - PART_GAP * (len(row) - 1)) / 2
+        height = max(part.height for part in row)
         for part in row:
-            part.place(x, y + max(p.height for p in row) - part.height)
+            part.place(x, y, height)
             x += part.width + PART_GAP
-        y += max(p.height for p in row) + PART_GAP
+        y += height + PART_GAP
     return width, y - PART_GAP - top
 
 
