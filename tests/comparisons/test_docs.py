@@ -45,6 +45,18 @@ class Pages(unittest.TestCase):
                     missing.append(f"{name}.md: {path}")
         self.assertEqual(missing, [])
 
+    def test_named_files_exist(self):
+        """A source file or a test that any page names without its folder is somewhere in the project."""
+        folders = ("boundary_integral", "phasefield", "shared", "statics", "cli", "comparisons", "python", "tests", "tools", "bench")
+        known = {path.name for folder in folders for path in (locations.ROOT / folder).rglob("*.*")}
+        missing = []
+        for page in (locations.ROOT / "README.md", *pages()):
+            text = page.read_text(encoding="utf-8")
+            missing += [f"{page.name}: {name}" for name in re.findall(r"`(\w+\.(?:h|cpp|py))`", text) if name not in known]
+            tests = re.findall(r"`(\w+_test)`", text)
+            missing += [f"{page.name}: {name}" for name in tests if not known & {f"{name}.cpp", f"{name}.py"}]
+        self.assertEqual(missing, [])
+
     def test_every_page_is_listed(self):
         index = (locations.ROOT / "docs" / "index.md").read_text(encoding="utf-8")
         linked = {target.split("#")[0] for target in LINK.findall(index)}
