@@ -9,6 +9,7 @@
 #include "command_line.h"
 #include "engine_run.h"
 #include "phasefield/simulation.h"
+#include "shared/model/loads.h"
 #include "shared/output/run_output.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
@@ -43,6 +44,7 @@ std::unique_ptr<RunOutput> open_output(const RunRequest& request, int rank, int 
 int run(int argc, char** argv, int rank, int processes) {
     const auto request = parse_run_request(argc, argv, "phase-field");
     if (!request) return 0;
+    require_no_loads(request->parameters, "phase-field");
     install_signal_handlers();
     const auto output = open_output(*request, rank, processes);
     return run_to_the_end(*output, [&] { return phasefield::simulate(request->parameters, *output, MPI_COMM_WORLD); });

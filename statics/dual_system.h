@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "shared/numerics/forward.h"
 #include "statics/boundary_value_problem.h"
-#include "statics/dual.h"
 
 namespace endoflow::statics {
 

@@ -87,12 +87,11 @@ void set_at_rest(MembraneCurve& curve) {
 
 MembraneCurve sampled_curve(const Parameters& parameters, const PiecewiseSolution& solution, const GaussRule& rule,
                             std::size_t points) {
-    const BendingModel bending(parameters.membrane);
+    const StationaryCase stationary(parameters);
     const double label = solution.globals(global::area);
     MembraneCurve curve;
     ArcLength(solution, rule, label, from_axis).at_even_points(points, [&](double x, double s) {
-        const PointOfShape point =
-            point_of_shape(bending, parameters.molecules, label * x, evaluate(solution, rule, x));
+        const PointOfShape point = point_of_shape(stationary, label * x, evaluate(solution, rule, x));
         curve.s.push_back(s);
         curve.r.push_back(x > 0 ? point.r : 0);
         curve.z.push_back(point.z);

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "shared/model/double_well.h"
 #include "shared/model/initial_condition.h"
+#include "shared/model/loads.h"
+#include "shared/model/transport_law.h"
 #include "statics/dual_system.h"
 
 namespace endoflow::statics {
@@ -15,10 +16,13 @@ namespace {
 
 constexpr std::size_t unknowns = static_cast<std::size_t>(state::equilibrium_states) + 2;  // states and globals
 using Number = Dual<unknowns>;
+constexpr double pi = std::numbers::pi;
 
-/// What a case's parameters say to the equations.
+/// What a case says to the equations.
 struct Setting {
-    BendingModel bending;
+    MembraneEnergy energy;
+    TransportLaw transport;
+    Loads loads;
     MoleculeParameters molecules;
     double rim_radius, rim_height;
     double mass;  // ∫ c da of the initial membrane, nm²
@@ -39,9 +43,12 @@ double initial_mass(const Parameters& p) {
     return sum;
 }
 
-Setting setting_of(const Parameters& p) {
+Setting setting_of(const StationaryCase& stationary) {
+    const Parameters& p = stationary.parameters;
     const bool frozen = molecules_are_frozen(p);
-    return {BendingModel(p.membrane),
+    return {stationary.energy,
+            transport_law(p.molecules),
+            loads_of(p),
             p.molecules,
             p.domain.radius,
             p.domain.membrane_height,
@@ -51,12 +58,21 @@ Setting setting_of(const Parameters& p) {
             frozen ? 1 : 2};
 }
 
-Number frozen_concentration(const MoleculeParameters& molecules, const Number& a) {
-    const double c = initial_concentration_of_material(molecules, a.value);
-    const double initial_radius = std::sqrt(2 * a.value);  // dc/dr = −√2 c (1 − c)/ε_c for the tanh profile
-    const double slope =
-        initial_radius > 0 ? -std::numbers::sqrt2 * c * (1 - c) / (molecules.interface_width * initial_radius) : 0;
-    return Number::chain(c, slope, a);
+/// c and dc/da at one point.
+template <class Number>
+struct Concentration {
+    Number value, slope;
+};
+
+/// Those of the material with label a: c is the tanh profile in the radius ρ = √(2a) it had, dc/dρ = −√2 c (1 − c)/ε_c.
+template <class Number>
+Concentration<Number> frozen_concentration(const MoleculeParameters& molecules, const Number& a) {
+    const double c = initial_concentration_of_material(molecules, value_of(a));
+    const double rho = std::sqrt(2 * std::max(value_of(a), 0.0)), epsilon = molecules.interface_width;
+    if (rho == 0) return {chain(a, c, 0), 0.0};
+    const double steepness = std::numbers::sqrt2 / epsilon, by_rho = -steepness * c * (1 - c);
+    const double slope = by_rho / rho;
+    return {chain(a, c, slope), chain(a, slope, (-steepness * (1 - 2 * c) * slope - slope / rho) / rho)};
 }
 
 /// The states and globals as dual numbers, at one point.
@@ -68,55 +84,79 @@ struct Variables {
         : y(dual_unknowns<unknowns>(at, globals)), states(at.size()) {}
     const Number& operator[](Eigen::Index i) const { return y[static_cast<std::size_t>(i)]; }
     [[nodiscard]] const Number& global(Eigen::Index i) const { return y[static_cast<std::size_t>(states + i)]; }
-    [[nodiscard]] Number concentration(const Setting& setting, double x) const {
-        return setting.frozen ? frozen_concentration(setting.molecules, x * global(global::area))
-                              : y[static_cast<std::size_t>(state::concentration)];
-    }
 };
 
-/// β(c) and κ = C(c) + m/β(c).
-struct Curvature {
-    Number stiffness, total;
-
-    Curvature(const Setting& setting, const Number& c, const Number& moment) {
-        const auto beta = setting.bending.stiffness(c.value),
-                   spontaneous = setting.bending.spontaneous_curvature(c.value);
-        stiffness = Number::chain(beta.value, beta.first, c);
-        total = Number::chain(spontaneous.value, spontaneous.first, c) + moment / stiffness;
-    }
+/// What the equations need at one point besides the states.
+template <class Number>
+struct MaterialPoint {
+    Concentration<Number> c;
+    ElasticState<Number> elastic;
+    Number stress;         // 2 (∂e/∂|∇c|²) (dc/da)², the tension of c's gradient over r², pN/nm³
+    Number force, spread;  // Z and Z/r²: the resultant −F (1 − exp(−a/(πw²)))/2π of the pole force, pN and pN/nm²
 };
+
+/// `y` holds the states, `a` is the label.
+template <class Number, class States>
+MaterialPoint<Number> material_point(const MembraneEnergy& energy, const MoleculeParameters& molecules,
+                                     const Loads& loads, bool frozen, const States& y, const Number& a) {
+    MaterialPoint<Number> point;
+    const bool on_axis = value_of(a) == 0;
+    if (frozen)
+        point.c = frozen_concentration(molecules, a);
+    else
+        point.c = {y[state::concentration], on_axis ? Number(0.0) : y[state::gradient] / y[state::r_squared]};
+    const Number squared_slope = point.c.slope * point.c.slope;
+    point.elastic =
+        elastic_state(energy, Number(y[state::moment]), point.c.value, Number(y[state::r_squared] * squared_slope));
+    point.stress = 2.0 * point.elastic.by_squared_gradient * squared_slope;
+    point.force = (-0.5 * loads.pole_force / pi) * loads.force_within(2 * pi * a);
+    point.spread = on_axis ? Number(0.0) : point.force / y[state::r_squared];
+    return point;
+}
+
+/// λ = m κ1 + Q cos θ + (½ p r² − Z) κ2 + 2 (∂e/∂|∇c|²) |∇c|² − e: the first integral, from the balance along the
+/// membrane.
+template <class Number, class States>
+Number tension(const MaterialPoint<Number>& point, const Loads& loads, const States& y) {
+    const Number &hoop = y[state::hoop], &r2 = y[state::r_squared];
+    return y[state::moment] * (point.elastic.curvature - hoop) + y[state::thrust] * y[state::cosine] +
+           (0.5 * loads.pressure * r2 - point.force) * hoop + r2 * point.stress - point.elastic.density;
+}
 
 /// Δ_Γ c as a function of c and μ: zero of the chemical potential's deviation from its constant.
 Number concentration_source(const Setting& setting, const Number& c, const Number& potential) {
-    if (setting.molecules.transport == Transport::fickian) {
-        const double length = 0.25 * setting.rim_radius;  // any length will do: c = μ everywhere
-        return (c - potential) / Number(length * length);
+    const ValueAndDerivatives local = setting.transport.potential(c.value);
+    const Number deviation = chain(c, local.value, local.first) - potential;
+    if (setting.transport.edge_width == 0) {
+        const double length = 0.25 * setting.rim_radius;  // any length will do: p(c) = μ everywhere
+        return deviation / (length * length);
     }
-    const auto well = double_well(c.value);  // (24): −ε Δ_Γ c + W'(c)/ε = μ
-    const double epsilon = setting.molecules.interface_width;
-    return (Number::chain(well.first, well.second, c) / Number(epsilon) - potential) / Number(epsilon);
+    return deviation / setting.transport.edge_width;
 }
 
 SlopeValues slope(const Setting& setting, double x, const Eigen::VectorXd& states, const Eigen::VectorXd& globals) {
     const Variables v(states, globals);
-    const Number c = v.concentration(setting, x);
+    const auto point = material_point(setting.energy, setting.molecules, setting.loads, setting.frozen, v,
+                                      Number(x * v.global(global::area)));
     const Number &y = v[state::r_squared], &w = v[state::cosine], &hoop = v[state::hoop], &m = v[state::moment],
                  &thrust = v[state::thrust];
-    const Curvature curvature(setting, c, m);
-    const Number anisotropy = (curvature.total - 2.0 * hoop) / y;  // (κ1 − κ2)/r²
+    const Number& curvature = point.elastic.curvature;
+    const Number anisotropy = (curvature - 2.0 * hoop) / y;  // (κ1 − κ2)/r²
+    const double half_pressure = 0.5 * setting.loads.pressure;
 
     std::array<Number, static_cast<std::size_t>(state::equilibrium_states)> by_a;
     const auto set = [&](Eigen::Index i, const Number& value) { by_a[static_cast<std::size_t>(i)] = value; };
     set(state::r_squared, 2.0 * w);
-    set(state::cosine, -hoop * (curvature.total - hoop));
+    set(state::cosine, -hoop * (curvature - hoop));
     set(state::hoop, w * anisotropy);
-    set(state::moment, thrust * hoop);   // normal force balance, (A.25)
-    set(state::thrust, m * anisotropy);  // radial force balance
+    set(state::moment, thrust * hoop + (point.spread - half_pressure) * w);  // normal force balance, (A.25)
+    set(state::thrust,
+        m * anisotropy + point.stress - (point.spread + half_pressure) * hoop);  // radial force balance
     set(state::height, -hoop);
     if (!setting.frozen) {
-        set(state::concentration, v[state::gradient] / y);
-        set(state::gradient, concentration_source(setting, c, v.global(global::potential)));
-        set(state::mass, c);
+        set(state::concentration, point.c.slope);
+        set(state::gradient, concentration_source(setting, point.c.value, v.global(global::potential)));
+        set(state::mass, point.c.value);
     }
     std::array<Number, unknowns> by_x;
     for (std::size_t i = 0; i < static_cast<std::size_t>(setting.states); ++i)
@@ -124,26 +164,22 @@ SlopeValues slope(const Setting& setting, double x, const Eigen::VectorXd& state
     return slope_values<unknowns>(by_x, setting.states, setting.globals);
 }
 
-/// λ = m κ1 + Q cos θ − m²/(2β)
-Number tension(const Curvature& curvature, const Number& m, const Number& hoop, const Number& thrust, const Number& w) {
-    return m * (curvature.total - hoop) + thrust * w - 0.5 * m * m / curvature.stiffness;
-}
-
 ConditionValues conditions(const Setting& setting, const Eigen::VectorXd& first, const Eigen::VectorXd& last,
                            const Eigen::VectorXd& globals) {
     ConditionList<unknowns> list(setting.states, setting.globals);
     const Variables at_axis(first, globals);
-    const Curvature apex(setting, at_axis.concentration(setting, 0), at_axis[state::moment]);
+    const auto material = [&](const Variables& v, double x) {
+        return material_point(setting.energy, setting.molecules, setting.loads, setting.frozen, v,
+                              Number(x * v.global(global::area)));
+    };
     list.at_first(at_axis[state::r_squared]);
     list.at_first(at_axis[state::cosine] - 1.0);
-    list.at_first(apex.total - 2.0 * at_axis[state::hoop]);  // regular: both principal curvatures are equal
+    list.at_first(material(at_axis, 0).elastic.curvature - 2.0 * at_axis[state::hoop]);  // regular: κ1 = κ2
 
     const Variables at_rim(last, globals);
-    const Curvature end(setting, at_rim.concentration(setting, 1), at_rim[state::moment]);
     list.at_last(at_rim[state::r_squared] - setting.rim_radius * setting.rim_radius);
     list.at_last(at_rim[state::hoop]);  // horizontal tangent
-    list.at_last(
-        tension(end, at_rim[state::moment], at_rim[state::hoop], at_rim[state::thrust], at_rim[state::cosine]));
+    list.at_last(tension(material(at_rim, 1), setting.loads, at_rim) - setting.loads.rim_tension);
     list.at_last(at_rim[state::height] - setting.rim_height);
     if (!setting.frozen) {
         list.at_first(at_axis[state::gradient]);
@@ -157,32 +193,31 @@ ConditionValues conditions(const Setting& setting, const Eigen::VectorXd& first,
 }  // namespace
 
 bool molecules_are_frozen(const Parameters& parameters) {
-    return parameters.molecules.transport == Transport::advection;
+    return transport_law(parameters.molecules).mobility == 0;
 }
 
 double initial_concentration_of_material(const MoleculeParameters& molecules, double a) {
     return initial_concentration(molecules, std::sqrt(2 * std::max(a, 0.0)));
 }
 
-PointOfShape point_of_shape(const BendingModel& bending, const MoleculeParameters& molecules, double a,
-                            const Eigen::VectorXd& y) {
+PointOfShape point_of_shape(const StationaryCase& stationary, double a, const Eigen::VectorXd& y) {
+    const Loads loads = loads_of(stationary.parameters);
     const bool frozen = y.size() == state::frozen_states;
+    const auto material = material_point(stationary.energy, stationary.parameters.molecules, loads, frozen, y, a);
     PointOfShape point{};
     point.r = std::sqrt(std::max(y(state::r_squared), 0.0));
     point.z = y(state::height);
     point.cosine = y(state::cosine);
     point.sine = y(state::hoop) * point.r;
-    point.c = frozen ? initial_concentration_of_material(molecules, a) : y(state::concentration);
-    const double beta = bending.stiffness(point.c).value, m = y(state::moment);
-    point.total_curvature = bending.spontaneous_curvature(point.c).value + m / beta;
-    point.energy_density = 0.5 * m * m / beta;
-    point.tension =
-        m * (point.total_curvature - y(state::hoop)) + y(state::thrust) * point.cosine - point.energy_density;
-    point.shear = y(state::thrust) * point.sine;
+    point.c = material.c.value;
+    point.total_curvature = material.elastic.curvature;
+    point.energy_density = material.elastic.density;
+    point.tension = tension(material, loads, y);
+    point.shear = y(state::thrust) * point.sine + (material.spread - 0.5 * loads.pressure) * point.r * point.cosine;
     return point;
 }
 
-BoundaryValueProblem stationary_shapes(const ParameterPath& path, double typical_value, double scale) {
+BoundaryValueProblem stationary_shapes(const CasePath& path, double typical_value, double scale) {
     BoundaryValueProblem problem;
     problem.at = [path](double value) -> Equations {
         const Setting setting = setting_of(path(value));
@@ -192,7 +227,7 @@ BoundaryValueProblem stationary_shapes(const ParameterPath& path, double typical
                 return conditions(setting, first, last, g);
             }};
     };
-    const Parameters typical = path(typical_value);
+    const Parameters typical = path(typical_value).parameters;
     const double radius = typical.domain.radius, curvature = 4 / radius;
     const double stiffness = BendingModel(typical.membrane).stiffness(0).value;
     const double epsilon = typical.molecules.interface_width;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "shared/model/bending_model.h"
+#include "shared/model/membrane_energy.h"
 #include "shared/parameters/parameters.h"
 #include "statics/boundary_value_problem.h"
 
@@ -18,9 +19,9 @@ namespace state {
 inline constexpr Eigen::Index r_squared = 0;  // y = r², nm²
 inline constexpr Eigen::Index cosine = 1;     // w = cos θ
 inline constexpr Eigen::Index hoop = 2;       // κ2 = sin θ/r, the principal curvature around the axis, 1/nm
-inline constexpr Eigen::Index moment = 3;     // m = β (κ − C), pN
-inline constexpr Eigen::Index thrust = 4;  // Q, resultant of tension and shear, radial as no vertical force acts, pN/nm
-inline constexpr Eigen::Index height = 5;  // z, nm
+inline constexpr Eigen::Index moment = 3;     // m = ∂e/∂κ = β (κ − C), pN
+inline constexpr Eigen::Index thrust = 4;     // Q, radial resultant of tension and shear, pN/nm
+inline constexpr Eigen::Index height = 5;     // z, nm
 inline constexpr Eigen::Index frozen_states = 6;
 // only where the molecules have diffused to their equilibrium:
 inline constexpr Eigen::Index concentration = 6;  // c
@@ -35,6 +36,16 @@ inline constexpr Eigen::Index area = 0;       // E, membrane area over 2π, nm²
 inline constexpr Eigen::Index potential = 1;  // μ of the molecules: Cahn-Hilliard in 1/nm; Fickian: the concentration
 }  // namespace global
 
+/// A case and its energy: that of its parameters unless another one is given.
+struct StationaryCase {
+    Parameters parameters;
+    MembraneEnergy energy;
+
+    StationaryCase(const Parameters& p)
+        : StationaryCase(p, membrane_energy(p)) {}  // NOLINT(google-explicit-constructor)
+    StationaryCase(const Parameters& p, MembraneEnergy e) : parameters(p), energy(std::move(e)) {}
+};
+
 /// Whether the molecules stay where they are in the material (transport by advection) or are in equilibrium.
 [[nodiscard]] bool molecules_are_frozen(const Parameters& parameters);
 
@@ -46,20 +57,19 @@ struct PointOfShape {
     double r, z, cosine, sine;
     double c;
     double total_curvature;  // κ, 1/nm
-    double tension;          // λ = m κ1 + Q cos θ − m²/(2β), pN/nm: the first integral
-    double energy_density;   // ½ β (κ − C)², pN/nm
-    double shear;            // dm/ds = Q sin θ, pN/nm
+    double tension;          // λ, pN/nm: the first integral
+    double energy_density;   // e, pN/nm
+    double shear;            // dm/ds, pN/nm
 };
 
 /// y: the states at material label a (nm²).
-[[nodiscard]] PointOfShape point_of_shape(const BendingModel& bending, const MoleculeParameters& molecules, double a,
-                                          const Eigen::VectorXd& y);
+[[nodiscard]] PointOfShape point_of_shape(const StationaryCase& stationary, double a, const Eigen::VectorXd& y);
 
-/// Makes the parameters of a case out of the value of the parameter that varies.
-using ParameterPath = std::function<Parameters(double)>;
+/// Makes a case out of the value of the parameter that varies.
+using CasePath = std::function<StationaryCase(double)>;
 
 /// The stationary shapes along a path of cases. `scale` is a typical change of the path's parameter.
-[[nodiscard]] BoundaryValueProblem stationary_shapes(const ParameterPath& path, double typical_value, double scale);
+[[nodiscard]] BoundaryValueProblem stationary_shapes(const CasePath& path, double typical_value, double scale);
 
 /// The flat membrane, the solution at vanishing spontaneous curvature; in equilibrium only a guess for the molecules.
 struct FlatMembrane {

@@ -67,10 +67,10 @@ ExitReason write_branch(const Parameters& parameters, const Request& request, co
         row.set(changed, value);
         return changed;
     };
-    const ParameterPath solved = [&](double value) { return resolved(named(value), request); };
+    const CasePath solved = [&](double value) { return resolved(named(value), request); };
     const auto visit = [&](const BranchPoint& point) {
         const double value = point.solution.parameter;
-        write_state(writer, named(value), solved(value), point);
+        write_state(writer, named(value), solved(value).parameters, point);
         return interruption_signal() == 0;
     };
     const auto branch = continue_state(state, solved, number_of(parameters, key), end, visit);

@@ -12,7 +12,7 @@ namespace endoflow::statics {
 
 namespace {
 
-ParameterPath path_in_curvature(const Parameters& parameters) {
+CasePath path_in_curvature(const Parameters& parameters) {
     return [parameters](double curvature) {
         Parameters changed = parameters;
         changed.membrane.spontaneous_curvature = curvature;
@@ -20,7 +20,7 @@ ParameterPath path_in_curvature(const Parameters& parameters) {
     };
 }
 
-ParameterPath path_in_patch_radius(const Parameters& parameters) {
+CasePath path_in_patch_radius(const Parameters& parameters) {
     return [parameters](double radius) {
         Parameters changed = parameters;
         changed.molecules.patch_radius = radius;
@@ -119,9 +119,9 @@ Search search_along(const Parameters& parameters, const Resolution& resolution, 
 /// Where the branch of smaller patches ends at the case's spontaneous curvature; empty when none was found.
 std::string end_in_patch_radius(const Parameters& parameters, const Resolution& resolution) {
     const double wanted = parameters.molecules.patch_radius;
-    const ParameterPath path = path_in_patch_radius(parameters);
+    const CasePath path = path_in_patch_radius(parameters);
     for (double radius = 0.9 * wanted; radius > 0.3 * wanted; radius *= 0.9) {
-        const Search smaller = search_along(path(radius), resolution, before_fold);
+        const Search smaller = search_along(path(radius).parameters, resolution, before_fold);
         if (!smaller.state) continue;
         const auto branch = continue_state(*smaller.state, path, radius, wanted, before_fold, resolution);
         if (!branch) return "";
@@ -164,7 +164,7 @@ StationaryState find_stationary_state(const Parameters& parameters, const Resolu
     return std::move(*search.state);
 }
 
-std::optional<Branch> continue_state(const StationaryState& state, const ParameterPath& with, double begin, double end,
+std::optional<Branch> continue_state(const StationaryState& state, const CasePath& with, double begin, double end,
                                      const Visitor& visit, const Resolution& resolution) {
     const GaussRule rule(resolution.points);
     const BoundaryValueProblem problem = stationary_shapes(with, begin, std::max(std::abs(begin), 0.1 * std::abs(end)));

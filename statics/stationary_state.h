@@ -43,9 +43,8 @@ inline constexpr double closed_neck_radius = 1.0;
 
 /// The branch through a state in another parameter, from the state's value to `end`. `with(value)` is the state's
 /// case with that parameter changed. Empty when Newton's method fails at once.
-[[nodiscard]] std::optional<Branch> continue_state(const StationaryState& state, const ParameterPath& with,
-                                                   double begin, double end, const Visitor& visit,
-                                                   const Resolution& resolution = {});
+[[nodiscard]] std::optional<Branch> continue_state(const StationaryState& state, const CasePath& with, double begin,
+                                                   double end, const Visitor& visit, const Resolution& resolution = {});
 
 /// The case in which patch_radius counts as the radius of the disc with the same mass, π r_c². The initial profile
 /// has mass π (r_c² + π² ε_c²/6), so the radius is reduced accordingly. Throws InputError for a patch that is too

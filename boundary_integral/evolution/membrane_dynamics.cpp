@@ -23,6 +23,8 @@ MembraneDynamics::MembraneDynamics(const Parameters& parameters)
       space_(parameters.boundary_integral.elements, parameters.boundary_integral.quadrature_order,
              parameters.domain.kind == DomainKind::box ? CurveEnd::clamped : CurveEnd::closed),
       model_(parameters.membrane),
+      energy_(membrane_energy(parameters)),
+      transport_(transport_law(parameters.molecules)),
       flow_(make_flow(parameters, space_)),
       mesh_(space_,
             {parameters.boundary_integral.mesh_curvature_length, parameters.boundary_integral.mesh_edge_weight,
@@ -103,10 +105,10 @@ Evaluation MembraneDynamics::evaluate(const Eigen::VectorXd& y,
     const MembraneState state = unpack(y);
     const MembraneSamples samples = sample(space_, state);
     Evaluation e{
-        state, samples, bending_energy(space_, state, model_, Derivatives::first), std::move(operators), {}, {},
+        state, samples, energy_derivatives(space_, state, energy_, Derivatives::first), std::move(operators), {}, {},
         {},    {}};
     const double rim_energy_density =
-        space_.end() == CurveEnd::clamped ? energy_density_at_rim(space_, state, model_) : 0.0;
+        space_.end() == CurveEnd::clamped ? energy_density_at_rim(space_, state, energy_) : 0.0;
     e.flow = flow_->solve(*e.operators, e.samples, e.energy, rim_energy_density);
     const Eigen::VectorXd tangential = mesh_.tangential_velocity(state, samples, e.flow.velocity, e.flow.inflow);
     e.mesh_velocity = e.flow.velocity + tangential;
@@ -118,7 +120,7 @@ Evaluation MembraneDynamics::evaluate(const Eigen::VectorXd& y,
         e.relative_velocity[i] =
             -(space_.radial_rows[i].evaluate(t_r) * p.r1 + space_.axial_rows[i].evaluate(t_z) * p.z1) / p.g;
     }
-    e.rate = pack(e.mesh_velocity, diffusion_rate(space_, samples, state.c, parameters_.molecules) +
+    e.rate = pack(e.mesh_velocity, diffusion_rate(space_, samples, state.c, transport_) +
                                        advection_rate(space_, samples, e.relative_velocity));
     return e;
 }
@@ -127,7 +129,8 @@ Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
     const Index curve = free_radial() + free_axial();
     const Index moments = space_.axial_count();
     const VelocityFreedoms& freedoms = e.operators->freedoms;
-    const EnergyDerivatives second = bending_energy(space_, e.state, model_, Derivatives::second, e.flow.multipliers);
+    const EnergyDerivatives second =
+        energy_derivatives(space_, e.state, energy_, Derivatives::second, e.flow.multipliers);
 
     // Velocity freedoms: delta u = Y delta load with B delta u = - delta B u.
     Eigen::MatrixXd load_curve = -freedoms.restrict_rows(pack_columns(second.hessian));
@@ -158,7 +161,7 @@ Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
     const Eigen::MatrixXd rate_c = pack_rows(velocity_c + tangential_c);
 
     const TransportDerivatives transport =
-        transport_derivatives(space_, e.samples, e.state.c, parameters_.molecules, e.relative_velocity);
+        transport_derivatives(space_, e.samples, e.state.c, transport_, e.relative_velocity);
     const Eigen::MatrixXd c_from_curve = pack_columns(transport.c_from_curve);
     const Eigen::MatrixXd advection = advection_from_mesh_velocity(space_, e.samples);
     const Eigen::MatrixXd moments_from_curve = pack_columns(transport.rate_from_curve) + advection * tangential_curve;

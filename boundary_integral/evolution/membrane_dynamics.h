@@ -61,6 +61,8 @@ class MembraneDynamics {
     Parameters parameters_;
     MembraneSpace space_;
     BendingModel model_;
+    MembraneEnergy energy_;
+    TransportLaw transport_;
     std::unique_ptr<FlowModel> flow_;
     MeshMotion mesh_;
 

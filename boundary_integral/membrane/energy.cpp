@@ -2,61 +2,102 @@
 
 #include <algorithm>
 
-#include "boundary_integral/membrane/jet.h"
+#include "shared/numerics/forward.h"
 
 namespace endoflow::boundary_integral {
 
 namespace {
 
-// What the energy density depends on at one point.
-enum Variable : std::size_t { var_r, var_r1, var_r2, var_z1, var_z2, var_c, variable_count };
+// What the energy depends on at one point: the curve's derivatives, which alone make its geometry, then c and c'.
+enum Variable : std::size_t { var_r, var_r1, var_r2, var_z1, var_z2, var_c, var_c1, variable_count };
+constexpr std::size_t curve_variables = 5;
+using CurveJet = Jet<curve_variables>;
+using CurveDual = Dual<curve_variables>;
 using EnergyJet = Jet<variable_count>;
-using EnergyGradient = Gradient<variable_count>;
+using EnergyDual = Dual<variable_count>;
 
-EnergyJet volume_jet(const CurvePoint& p) {
-    const EnergyJet r = EnergyJet::variable(p.r, var_r);
-    const EnergyJet twice = r * r * EnergyJet::variable(p.z1, var_z1);
-    return combine(-0.5, twice, 0.0, twice);
+CurveJet volume_jet(const CurvePoint& p) {
+    const CurveJet r = CurveJet::variable(p.r, var_r);
+    return -0.5 * (r * r * CurveJet::variable(p.z1, var_z1));
 }
 
-// `Type` is EnergyJet or EnergyGradient.
-template <class Type>
-struct AreaJets {
-    Type r, r1, r2, z1, z2, g, area;  // area = r g
-};
-
-template <class Type>
-AreaJets<Type> area_jets(const CurvePoint& p) {
-    AreaJets<Type> jets;
-    jets.r = Type::variable(p.r, var_r);
-    jets.r1 = Type::variable(p.r1, var_r1);
-    jets.r2 = Type::variable(p.r2, var_r2);
-    jets.z1 = Type::variable(p.z1, var_z1);
-    jets.z2 = Type::variable(p.z2, var_z2);
-    jets.g = sqrt(jets.r1 * jets.r1 + jets.z1 * jets.z1);
-    jets.area = jets.r * jets.g;
-    return jets;
+// Area per d xi, r g.
+CurveJet area_jet(const CurvePoint& p) {
+    const CurveJet r1 = CurveJet::variable(p.r1, var_r1), z1 = CurveJet::variable(p.z1, var_z1);
+    return CurveJet::variable(p.r, var_r) * sqrt(r1 * r1 + z1 * z1);
 }
 
-// 1/2 beta(c) (kappa - C(c))^2 r g, with (kappa - C) r g = -r (r' z'' - z' r'')/g^2 - z' - C r g
-template <class Type>
-Type energy_density(const AreaJets<Type>& jets, double c, const BendingModel& model) {
-    const Type concentration = Type::variable(c, var_c);
-    const ValueAndDerivatives beta = model.stiffness(c);
-    const ValueAndDerivatives spontaneous = model.spontaneous_curvature(c);
-    const Type stiffness = chain(concentration, beta.value, beta.first, beta.second);
-    const Type curvature = chain(concentration, spontaneous.value, spontaneous.first, spontaneous.second);
-    const Type cross = jets.r1 * jets.z2 - jets.z1 * jets.r2;
-    const Type excess =
-        Type::constant(0.0) - jets.r * cross * reciprocal(jets.g * jets.g) - jets.z1 - curvature * jets.area;
-    const Type twice = stiffness * excess * excess * reciprocal(jets.area);
-    return combine(0.5, twice, 0.0, twice);
+// kappa = -(r' z'' - z' r'')/g^3 - z'/(r g), 1/g^2 and r g: what the energy per d xi, e(kappa, c, c'^2/g^2) r g, has of
+// the curve. `Number` is CurveJet or CurveDual.
+template <class Number>
+std::array<Number, 3> geometry(const CurvePoint& p) {
+    const Number r1 = Number::variable(p.r1, var_r1), z1 = Number::variable(p.z1, var_z1);
+    const Number squared = r1 * r1 + z1 * z1, inverse = 1.0 / squared, root = sqrt(squared);
+    const Number cross = r1 * Number::variable(p.z2, var_z2) - z1 * Number::variable(p.r2, var_r2);
+    const Number area = Number::variable(p.r, var_r) * root;
+    return {-(cross * inverse + z1 / Number::variable(p.r, var_r)) / root, inverse, area};
 }
 
-// One basis function seen by one variable.
+// e(kappa, c, c'^2 w) A as a function of kappa, w, A, c, c'.
+Jet<5> density_of_geometry(const MembraneEnergy& energy, double kappa, double w, double area, double c, double c1) {
+    using Outer = Jet<5>;
+    const Outer slope = Outer::variable(c1, 4);
+    const std::array<Outer, local::count> at{Outer::variable(kappa, 0), Outer::variable(c, 3),
+                                             slope * slope * Outer::variable(w, 1)};
+    return compose(energy.density(kappa, c, c1 * c1 * w), at) * Outer::variable(area, 2);
+}
+
+// A function of the three numbers of the geometry and of c, c', as one of all variables: to first order,
+EnergyDual in_all_variables(const Jet<5>& f, const std::array<CurveDual, 3>& geometry) {
+    EnergyDual y(f.value);
+    for (std::size_t a = 0; a < 3; ++a)
+        for (std::size_t i = 0; i < curve_variables; ++i) y.partial[i] += f.partial[a] * geometry[a].partial[i];
+    for (std::size_t k = 0; k < 2; ++k) y.partial[var_c + k] = f.partial[3 + k];
+    return y;
+}
+
+// and to second.
+EnergyJet in_all_variables(const Jet<5>& f, const std::array<CurveJet, 3>& geometry) {
+    EnergyJet y(f.value);
+    for (std::size_t a = 0; a < 3; ++a) {
+        const CurveJet& x = geometry[a];
+        std::array<double, curve_variables> image{};
+        for (std::size_t b = 0; b < 3; ++b)
+            for (std::size_t i = 0; i < curve_variables; ++i) image[i] += f.second[a][b] * geometry[b].partial[i];
+        for (std::size_t i = 0; i < curve_variables; ++i) {
+            y.partial[i] += f.partial[a] * x.partial[i];
+            for (std::size_t j = 0; j < curve_variables; ++j)
+                y.second[i][j] += f.partial[a] * x.second[i][j] + x.partial[i] * image[j];
+            for (std::size_t k = 0; k < 2; ++k) y.second[i][var_c + k] += x.partial[i] * f.second[a][3 + k];
+        }
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+        y.partial[var_c + k] = f.partial[3 + k];
+        for (std::size_t i = 0; i < curve_variables; ++i) y.second[var_c + k][i] = y.second[i][var_c + k];
+        for (std::size_t l = 0; l < 2; ++l) y.second[var_c + k][var_c + l] = f.second[3 + k][3 + l];
+    }
+    return y;
+}
+
+// Energy per d xi over 2 pi. `Number` is CurveJet or CurveDual.
+template <class Number>
+auto energy_per_length(const MembraneEnergy& energy, const std::array<Number, 3>& g, double c, double c1) {
+    return in_all_variables(density_of_geometry(energy, g[0].value, g[1].value, g[2].value, c, c1), g);
+}
+
+// Adds factor times a function of the curve alone.
+void add_of_curve(EnergyJet& sum, double factor, const CurveJet& x) {
+    for (std::size_t i = 0; i < curve_variables; ++i)
+        for (std::size_t j = 0; j < curve_variables; ++j) sum.second[i][j] += factor * x.second[i][j];
+}
+
+using Direction = std::array<double, variable_count>;
+
+// One basis function seen by the variables it moves: three of them from `first` on.
 struct Slot {
-    Index row;                                   // coefficient index in (r, z) or in c
-    std::array<double, variable_count> partial;  // d(variable)/d(coefficient)
+    Index row;  // coefficient index in (r, z) or in c
+    std::size_t first;
+    std::array<double, 3> partial;  // d(variable)/d(coefficient)
 };
 
 struct LocalSlots {
@@ -65,56 +106,59 @@ struct LocalSlots {
 };
 
 LocalSlots local_slots(const BasisRow& radial, const BasisRow& axial, Index radial_count) {
+    static_assert(var_r == 0 && var_z1 == 3 && var_c1 + 1 == variable_count);
     LocalSlots slots{};
     for (std::size_t j = 0; j < 6; ++j) {
-        slots.curve[j].row = radial.index[j];
-        slots.curve[j].partial = {radial.value[0][j], radial.value[1][j], radial.value[2][j], 0.0, 0.0, 0.0};
-        slots.curve[6 + j].row = radial_count + axial.index[j];
-        slots.curve[6 + j].partial = {0.0, 0.0, 0.0, axial.value[1][j], axial.value[2][j], 0.0};
-        slots.concentration[j].row = axial.index[j];
-        slots.concentration[j].partial = {0.0, 0.0, 0.0, 0.0, 0.0, axial.value[0][j]};
+        slots.curve[j] = {radial.index[j], var_r, {radial.value[0][j], radial.value[1][j], radial.value[2][j]}};
+        slots.curve[6 + j] = {radial_count + axial.index[j], var_z1, {axial.value[1][j], axial.value[2][j], 0.0}};
+        slots.concentration[j] = {axial.index[j], var_z2, {0.0, axial.value[0][j], axial.value[1][j]}};
     }
     return slots;
 }
 
-double dot(const std::array<double, variable_count>& a, const std::array<double, variable_count>& b) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < variable_count; ++i) sum += a[i] * b[i];
-    return sum;
+double dot(const Direction& a, const Slot& slot) {
+    return a[slot.first] * slot.partial[0] + a[slot.first + 1] * slot.partial[1] + a[slot.first + 2] * slot.partial[2];
 }
 
-std::array<double, variable_count> hessian_times(const EnergyJet& jet,
-                                                 const std::array<double, variable_count>& partial) {
-    std::array<double, variable_count> result{};
-    for (std::size_t i = 0; i < variable_count; ++i) result[i] = dot(jet.hessian[i], partial);
+Direction hessian_times(const EnergyJet& jet, const Slot& slot) {
+    Direction result;
+    for (std::size_t i = 0; i < variable_count; ++i) result[i] = dot(jet.second[i], slot);
+    return result;
+}
+
+// The Hessian of a function of the curve alone.
+Direction hessian_times(const CurveJet& jet, const std::array<double, curve_variables>& direction) {
+    Direction result{};
+    for (std::size_t i = 0; i < curve_variables; ++i)
+        for (std::size_t j = 0; j < curve_variables; ++j) result[i] += jet.second[i][j] * direction[j];
     return result;
 }
 
 void add_second_derivatives(const EnergyJet& jet, double weight, const LocalSlots& slots, EnergyDerivatives& result) {
     for (const Slot& column : slots.curve) {
-        const auto image = hessian_times(jet, column.partial);
-        for (const Slot& row : slots.curve) result.hessian(row.row, column.row) += weight * dot(row.partial, image);
+        const auto image = hessian_times(jet, column);
+        for (const Slot& row : slots.curve) result.hessian(row.row, column.row) += weight * dot(image, row);
     }
     for (const Slot& column : slots.concentration) {
-        const auto image = hessian_times(jet, column.partial);
-        for (const Slot& row : slots.curve) result.mixed(row.row, column.row) += weight * dot(row.partial, image);
+        const auto image = hessian_times(jet, column);
+        for (const Slot& row : slots.curve) result.mixed(row.row, column.row) += weight * dot(image, row);
     }
 }
 
 // One Gauss point's part of energy and gradients.
-template <class Type>
-void add_first_derivatives(const Type& density, double weight, const LocalSlots& slots, EnergyDerivatives& result) {
+template <class Number>
+void add_first_derivatives(const Number& density, double weight, const LocalSlots& slots, EnergyDerivatives& result) {
     result.energy += weight * density.value;
-    for (const Slot& row : slots.curve) result.gradient[row.row] += weight * dot(density.gradient, row.partial);
+    for (const Slot& row : slots.curve) result.gradient[row.row] += weight * dot(density.partial, row);
     for (const Slot& row : slots.concentration) {
-        result.gradient_c[row.row] += weight * dot(density.gradient, row.partial);
+        result.gradient_c[row.row] += weight * dot(density.partial, row);
     }
 }
 
 }  // namespace
 
-EnergyDerivatives bending_energy(const MembraneSpace& space, const MembraneState& state, const BendingModel& model,
-                                 Derivatives wanted, const Multipliers& multipliers) {
+EnergyDerivatives energy_derivatives(const MembraneSpace& space, const MembraneState& state,
+                                     const MembraneEnergy& energy, Derivatives wanted, const Multipliers& multipliers) {
     EnergyDerivatives result;
     result.gradient = Eigen::VectorXd::Zero(space.curve_count());
     result.gradient_c = Eigen::VectorXd::Zero(space.axial_count());
@@ -124,28 +168,29 @@ EnergyDerivatives bending_energy(const MembraneSpace& space, const MembraneState
     }
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
         const CurvePoint p = curve_point(space.radial_rows[i], space.axial_rows[i], state);
-        const double c = space.axial_rows[i].evaluate(state.c, 0);
+        const double c = space.axial_rows[i].evaluate(state.c, 0), c1 = space.axial_rows[i].evaluate(state.c, 1);
         const LocalSlots slots = local_slots(space.radial_rows[i], space.axial_rows[i], space.radial_count());
         const double weight = space.weight[i];
         if (wanted == Derivatives::first) {
-            add_first_derivatives(energy_density(area_jets<EnergyGradient>(p), c, model), weight, slots, result);
+            add_first_derivatives(energy_per_length(energy, geometry<CurveDual>(p), c, c1), weight, slots, result);
             continue;
         }
-        const AreaJets jets = area_jets<EnergyJet>(p);
-        EnergyJet density = energy_density(jets, c, model);
+        const auto at = geometry<CurveJet>(p);
+        EnergyJet density = energy_per_length(energy, at, c, c1);
         add_first_derivatives(density, weight, slots, result);
-        if (multipliers.tension.size() > 0) {
-            density = combine(1.0, density, space.tension_rows[i].evaluate(multipliers.tension), jets.area);
-            density = combine(1.0, density, multipliers.pressure, volume_jet(p));
-        }
+        if (multipliers.tension.size() > 0)
+            add_of_curve(density, space.tension_rows[i].evaluate(multipliers.tension), at[2]);
+        if (multipliers.pressure != 0) add_of_curve(density, multipliers.pressure, volume_jet(p));
         add_second_derivatives(density, weight, slots, result);
     }
     return result;
 }
 
-double energy_density_at_rim(const MembraneSpace& space, const MembraneState& state, const BendingModel& model) {
-    const CurvePoint rim = curve_point(space.radial().basis(1.0), space.axial().basis(1.0), state);
-    return bending_energy_density(model, rim.total_curvature(), space.axial().basis(1.0).evaluate(state.c, 0)).value;
+double energy_density_at_rim(const MembraneSpace& space, const MembraneState& state, const MembraneEnergy& energy) {
+    const BasisRow axial = space.axial().basis(1.0);
+    const CurvePoint rim = curve_point(space.radial().basis(1.0), axial, state);
+    const double slope = axial.evaluate(state.c, 1) / rim.g;
+    return energy.density(rim.total_curvature(), axial.evaluate(state.c, 0), slope * slope).value;
 }
 
 Eigen::MatrixXd divergence_matrix(const MembraneSpace& space, const MembraneSamples& samples) {
@@ -174,18 +219,14 @@ Eigen::MatrixXd divergence_variation(const MembraneSpace& space, const MembraneS
     const Eigen::VectorXd u_r = velocity.head(space.radial_count());
     const Eigen::VectorXd u_z = velocity.tail(space.axial_count());
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
-        const AreaJets jets = area_jets<EnergyJet>(samples.curve[i]);
         const LocalSlots slots = local_slots(space.radial_rows[i], space.axial_rows[i], space.radial_count());
-        const std::array<double, variable_count> direction = {space.radial_rows[i].evaluate(u_r, 0),
-                                                              space.radial_rows[i].evaluate(u_r, 1),
-                                                              0.0,
-                                                              space.axial_rows[i].evaluate(u_z, 1),
-                                                              0.0,
-                                                              0.0};
-        const auto image = hessian_times(jets.area, direction);
+        const std::array<double, curve_variables> direction = {space.radial_rows[i].evaluate(u_r, 0),
+                                                               space.radial_rows[i].evaluate(u_r, 1), 0.0,
+                                                               space.axial_rows[i].evaluate(u_z, 1)};
+        const auto image = hessian_times(area_jet(samples.curve[i]), direction);
         const BasisRow& mu = space.tension_rows[i];
         for (const Slot& column : slots.curve) {
-            const double variation = space.weight[i] * dot(image, column.partial);
+            const double variation = space.weight[i] * dot(image, column);
             for (std::size_t k = 0; k < static_cast<std::size_t>(mu.count); ++k) {
                 matrix(mu.index[k], column.row) += mu.value[0][k] * variation;
             }
@@ -197,10 +238,12 @@ Eigen::MatrixXd divergence_variation(const MembraneSpace& space, const MembraneS
 Eigen::RowVectorXd volume_gradient(const MembraneSpace& space, const MembraneSamples& samples) {
     Eigen::RowVectorXd result = Eigen::RowVectorXd::Zero(space.curve_count());
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
-        const EnergyJet density = volume_jet(samples.curve[i]);
+        const CurveJet density = volume_jet(samples.curve[i]);
         const LocalSlots slots = local_slots(space.radial_rows[i], space.axial_rows[i], space.radial_count());
         for (const Slot& column : slots.curve) {
-            result[column.row] += space.weight[i] * dot(density.gradient, column.partial);
+            result[column.row] +=
+                space.weight[i] * (column.first == var_r ? density.partial[var_r] * column.partial[0]
+                                                         : density.partial[var_z1] * column.partial[0]);
         }
     }
     return result;
@@ -213,10 +256,10 @@ Eigen::RowVectorXd volume_variation(const MembraneSpace& space, const MembraneSa
     const Eigen::VectorXd u_z = velocity.tail(space.axial_count());
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
         const LocalSlots slots = local_slots(space.radial_rows[i], space.axial_rows[i], space.radial_count());
-        const std::array<double, variable_count> direction = {space.radial_rows[i].evaluate(u_r, 0), 0.0, 0.0,
-                                                              space.axial_rows[i].evaluate(u_z, 1),  0.0, 0.0};
+        const std::array<double, curve_variables> direction = {space.radial_rows[i].evaluate(u_r, 0), 0.0, 0.0,
+                                                               space.axial_rows[i].evaluate(u_z, 1)};
         const auto image = hessian_times(volume_jet(samples.curve[i]), direction);
-        for (const Slot& column : slots.curve) result[column.row] += space.weight[i] * dot(image, column.partial);
+        for (const Slot& column : slots.curve) result[column.row] += space.weight[i] * dot(image, column);
     }
     return result;
 }

@@ -1,12 +1,12 @@
 #pragma once
 
-// The bending energy (S) of the discrete membrane with exact first and second derivatives, and the surface divergence.
+// The energy of the discrete membrane with exact first and second derivatives, and the surface divergence.
 // All integrals leave out the common factor 2 pi of the azimuth: E here is (energy)/(2 pi), dA = r g dxi.
 
 #include <Eigen/Core>
 
 #include "boundary_integral/membrane/membrane_space.h"
-#include "shared/model/bending_model.h"
+#include "shared/model/membrane_energy.h"
 
 namespace endoflow::boundary_integral {
 
@@ -26,13 +26,14 @@ struct Multipliers {
     double pressure = 0.0;    // of a closed membrane's volume, inside less outside with the sign of a load, pN/nm^2
 };
 
-// E = int 1/2 beta(c) (kappa - C(c))^2 dA (S). With second derivatives, multipliers add the Hessian of
+// E = int e(kappa, c, |grad c|^2) dA. With second derivatives, multipliers add the Hessian of
 // int lambda dA + pressure V at fixed lambda(xi).
-EnergyDerivatives bending_energy(const MembraneSpace& space, const MembraneState& state, const BendingModel& model,
-                                 Derivatives wanted, const Multipliers& multipliers = {});
+EnergyDerivatives energy_derivatives(const MembraneSpace& space, const MembraneState& state,
+                                     const MembraneEnergy& energy, Derivatives wanted,
+                                     const Multipliers& multipliers = {});
 
-// Energy per area at the rim, 1/2 beta (kappa - C)^2 [pN/nm]: what inflowing membrane brings with it.
-double energy_density_at_rim(const MembraneSpace& space, const MembraneState& state, const BendingModel& model);
+// Energy per area e at the rim [pN/nm]: what inflowing membrane brings with it.
+double energy_density_at_rim(const MembraneSpace& space, const MembraneState& state, const MembraneEnergy& energy);
 
 // Weak surface divergence: (C u)_k = int mu_k div_Gamma(u) dA = int mu_k D(r g)[u] dxi; tension x curve_count. Its
 // transpose times lambda is the gradient of int lambda dA.

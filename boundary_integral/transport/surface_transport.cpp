@@ -1,7 +1,5 @@
 #include "boundary_integral/transport/surface_transport.h"
 
-#include "shared/model/double_well.h"
-
 namespace endoflow::boundary_integral {
 
 namespace {
@@ -65,14 +63,21 @@ PointVariation conductance_variation(const CurvePoint& p, double factor) {
     return {factor / p.g, -factor * p.r * p.r1 / cubed, -factor * p.r * p.z1 / cubed};
 }
 
-// mu (24), weakly: M mu = eps K c + int W'(c)/eps phi dA
+// mu of a law with an edge width, weakly: M mu = k K c + int p(c) phi dA
 Eigen::VectorXd chemical_potential(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& c,
-                                   double width, const LuFactors& mass, const Eigen::MatrixXd& stiffness) {
-    Eigen::VectorXd weak = width * (stiffness * c);
+                                   const TransportLaw& law, const LuFactors& mass, const Eigen::MatrixXd& stiffness) {
+    Eigen::VectorXd weak = law.edge_width * (stiffness * c);
     weak += assemble_vector(space, 0, [&](std::size_t i) {
-        return double_well(samples.c[i]).first / width * samples.curve[i].r * samples.curve[i].g;
+        return law.potential(samples.c[i]).value * samples.curve[i].r * samples.curve[i].g;
     });
     return mass.solve(weak);
+}
+
+// int (r/g) p'(c) phi_i' phi_j' dxi: diffusion of second order
+Eigen::MatrixXd diffusion_matrix(const MembraneSpace& space, const MembraneSamples& samples, const TransportLaw& law) {
+    return assemble(space, 1, 1, [&](std::size_t i) {
+        return samples.curve[i].r / samples.curve[i].g * law.potential(samples.c[i]).first;
+    });
 }
 
 }  // namespace
@@ -91,13 +96,12 @@ Eigen::VectorXd concentration_from_moments(const MembraneSpace& space, const std
 }
 
 Eigen::VectorXd diffusion_rate(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& c,
-                               const MoleculeParameters& molecules) {
-    if (molecules.transport == Transport::advection) return Eigen::VectorXd::Zero(space.axial_count());
+                               const TransportLaw& law) {
+    if (law.mobility == 0) return Eigen::VectorXd::Zero(space.axial_count());
+    if (law.edge_width == 0) return -law.mobility * (diffusion_matrix(space, samples, law) * c);
     const Eigen::MatrixXd stiffness = surface_stiffness_matrix(space, samples.curve);
-    if (molecules.transport == Transport::fickian) return -molecules.diffusivity * (stiffness * c);
     const LuFactors mass(surface_mass_matrix(space, samples.curve), "concentration mass");
-    return -molecules.mobility *
-           (stiffness * chemical_potential(space, samples, c, molecules.interface_width, mass, stiffness));
+    return -law.mobility * (stiffness * chemical_potential(space, samples, c, law, mass, stiffness));
 }
 
 Eigen::VectorXd advection_rate(const MembraneSpace& space, const MembraneSamples& samples,
@@ -125,7 +129,7 @@ Eigen::MatrixXd advection_from_mesh_velocity(const MembraneSpace& space, const M
 }
 
 TransportDerivatives transport_derivatives(const MembraneSpace& space, const MembraneSamples& samples,
-                                           const Eigen::VectorXd& c, const MoleculeParameters& molecules,
+                                           const Eigen::VectorXd& c, const TransportLaw& law,
                                            const std::vector<double>& relative_velocity) {
     TransportDerivatives result;
     const auto& curve = samples.curve;
@@ -137,30 +141,33 @@ TransportDerivatives transport_derivatives(const MembraneSpace& space, const Mem
     result.rate_from_curve = assemble_variation(space, 1, [&](std::size_t i) {
         return PointVariation{samples.c[i] * relative_velocity[i], 0.0, 0.0};
     });
-    if (molecules.transport == Transport::advection) return result;
+    if (law.mobility == 0) return result;
 
-    const Eigen::MatrixXd stiffness = surface_stiffness_matrix(space, curve);
-    if (molecules.transport == Transport::fickian) {
-        result.rate_from_c -= molecules.diffusivity * stiffness;
-        result.rate_from_curve -= molecules.diffusivity * assemble_variation(space, 1, [&](std::size_t i) {
-                                      return conductance_variation(curve[i], samples.c1[i]);
-                                  });
+    if (law.edge_width == 0) {
+        result.rate_from_c -=
+            law.mobility * (diffusion_matrix(space, samples, law) + assemble(space, 1, 0, [&](std::size_t i) {
+                                return curve[i].r / curve[i].g * law.potential(samples.c[i]).second * samples.c1[i];
+                            }));
+        result.rate_from_curve -=
+            law.mobility * assemble_variation(space, 1, [&](std::size_t i) {
+                return conductance_variation(curve[i], law.potential(samples.c[i]).first * samples.c1[i]);
+            });
         return result;
     }
-    const double width = molecules.interface_width;
-    const Eigen::VectorXd mu = chemical_potential(space, samples, c, width, mass, stiffness);
-    const Eigen::MatrixXd weak_from_c = width * stiffness + assemble(space, 0, 0, [&](std::size_t i) {
-                                            return double_well(samples.c[i]).second / width * curve[i].r * curve[i].g;
+    const Eigen::MatrixXd stiffness = surface_stiffness_matrix(space, curve);
+    const Eigen::VectorXd mu = chemical_potential(space, samples, c, law, mass, stiffness);
+    const Eigen::MatrixXd weak_from_c = law.edge_width * stiffness + assemble(space, 0, 0, [&](std::size_t i) {
+                                            return law.potential(samples.c[i]).first * curve[i].r * curve[i].g;
                                         });
-    result.rate_from_c -= molecules.mobility * stiffness * mass.solve(weak_from_c);
+    result.rate_from_c -= law.mobility * stiffness * mass.solve(weak_from_c);
     Eigen::MatrixXd weak_from_curve = assemble_variation(
-        space, 1, [&](std::size_t i) { return conductance_variation(curve[i], width * samples.c1[i]); });
+        space, 1, [&](std::size_t i) { return conductance_variation(curve[i], law.edge_width * samples.c1[i]); });
     weak_from_curve += assemble_variation(space, 0, [&](std::size_t i) {
         const double value = space.axial_rows[i].evaluate(mu, 0);
-        return area_variation(curve[i], double_well(samples.c[i]).first / width - value);
+        return area_variation(curve[i], law.potential(samples.c[i]).value - value);
     });
-    result.rate_from_curve -= molecules.mobility * (stiffness * mass.solve(weak_from_curve));
-    result.rate_from_curve -= molecules.mobility * assemble_variation(space, 1, [&](std::size_t i) {
+    result.rate_from_curve -= law.mobility * (stiffness * mass.solve(weak_from_curve));
+    result.rate_from_curve -= law.mobility * assemble_variation(space, 1, [&](std::size_t i) {
                                   return conductance_variation(curve[i], space.axial_rows[i].evaluate(mu, 1));
                               });
     return result;

@@ -3,15 +3,14 @@
 // Conservative transport of the molecules along the moving curve. Unknown: the moments m_k = int c phi_k dA of c
 // against the axial functions (dA = r g dxi, no 2 pi). The phi_k sum to one, so sum(m) is the molecules' mass and
 // fluxes between the m_k conserve it to round-off whatever the time step:
-//     d(m_k)/dt = int phi_k' c r v dxi - D int (r/g) mu' phi_k' dxi
-//     v = tangential velocity of the material relative to the mesh (14) mu: Cahn-Hilliard -eps Lap_Gamma c + W'(c)/eps
-//     (23),(24); Fickian mu = c (22); advection D = 0
+//     d(m_k)/dt = int phi_k' c r v dxi - M int (r/g) mu' phi_k' dxi
+//     v: tangential velocity of the material relative to the mesh (14); M, mu: the transport law's
 
 #include <Eigen/Core>
 
 #include "boundary_integral/flow/dense_solver.h"
 #include "boundary_integral/membrane/membrane_space.h"
-#include "shared/parameters/parameters.h"
+#include "shared/model/transport_law.h"
 
 namespace endoflow::boundary_integral {
 
@@ -25,7 +24,7 @@ Eigen::VectorXd concentration_from_moments(const MembraneSpace& space, const std
 
 // d(m)/dt by diffusion alone.
 Eigen::VectorXd diffusion_rate(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& c,
-                               const MoleculeParameters& molecules);
+                               const TransportLaw& law);
 
 // d(m)/dt by advection with `relative_velocity` (values of v at the Gauss points, nm/us).
 Eigen::VectorXd advection_rate(const MembraneSpace& space, const MembraneSamples& samples,
@@ -43,7 +42,7 @@ struct TransportDerivatives {
     Eigen::MatrixXd rate_from_curve;  // d rate/d(curve) at fixed c
 };
 TransportDerivatives transport_derivatives(const MembraneSpace& space, const MembraneSamples& samples,
-                                           const Eigen::VectorXd& c, const MoleculeParameters& molecules,
+                                           const Eigen::VectorXd& c, const TransportLaw& law,
                                            const std::vector<double>& relative_velocity);
 
 }  // namespace endoflow::boundary_integral

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "shared/geometry/axisymmetric_spline.h"
+#include "shared/model/bending_term.h"
 
 namespace endoflow {
 
@@ -114,13 +115,14 @@ Observables measure(const MembraneCurve& curve, const BendingModel& model) {
     const double z_rim = curve.z.back(), two_pi = 2 * std::numbers::pi;
     const auto area_element = [&](double t) { return two_pi * shape.r.value(t) * shape.metric(t); };
 
+    const BendingTerm bending{model};
     Observables result{};
     result.neck = find_neck(shape);
     result.bud_height = largest(shape.z, shape.t, intervals) - z_rim;
     result.membrane_area = shape.integrate(intervals, area_element);
     result.molecule_mass = shape.integrate(intervals, [&](double t) { return c.value(t) * area_element(t); });
     result.bending_energy = shape.integrate(intervals, [&](double t) {
-        return bending_energy_density(model, kappa.value(t), c.value(t)).value * area_element(t);
+        return bending.density(LocalShape<double>{kappa.value(t), c.value(t), 0}) * area_element(t);
     });
     result.extracellular_volume = shape.integrate(intervals, [&](double t) {
         return (shape.z.value(t) - z_rim) * two_pi * shape.r.value(t) * shape.r.derivative(t);

@@ -51,12 +51,4 @@ ValueAndDerivatives BendingModel::spontaneous_curvature(double c) const {
     return scaled(h, curvature_scale_);
 }
 
-BendingEnergyDensity bending_energy_density(const BendingModel& model, double total_curvature, double c) {
-    const auto beta = model.stiffness(c);
-    const auto spontaneous = model.spontaneous_curvature(c);
-    const double excess = total_curvature - spontaneous.value;
-    return {0.5 * beta.value * excess * excess, beta.value * excess,
-            0.5 * beta.first * excess * excess - beta.value * spontaneous.first * excess};
-}
-
 }  // namespace endoflow

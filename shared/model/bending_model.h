@@ -43,13 +43,4 @@ class BendingModel {
     double curvature_scale_;  // C/H0
 };
 
-/// Energy per area ½ β (κ − C)² of (S), in pN/nm, and its partial derivatives with respect to κ and c.
-struct BendingEnergyDensity {
-    double value;
-    double d_curvature;      // β (κ − C)
-    double d_concentration;  // ½ β' (κ − C)² − β C' (κ − C)
-};
-
-[[nodiscard]] BendingEnergyDensity bending_energy_density(const BendingModel& model, double total_curvature, double c);
-
 }  // namespace endoflow

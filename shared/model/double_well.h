@@ -9,4 +9,9 @@ namespace endoflow {
     return {c * c * (1 - c) * (1 - c), 2 * c * (1 - c) * (1 - 2 * c), 2 + 12 * c * (c - 1)};
 }
 
+/// The double well's third derivative.
+[[nodiscard]] constexpr double double_well_third(double c) {
+    return 24 * c - 12;
+}
+
 }  // namespace endoflow

@@ -5,6 +5,8 @@
 #include <functional>
 #include <string_view>
 
+#include "shared/model/bending_model.h"
+#include "shared/model/loads.h"
 #include "shared/parameters/parameter_table.h"
 #include "shared/support/error.h"
 
@@ -158,6 +160,26 @@ void check_box(const Parameters& p, const Require& require) {
                     spacing, most_field_points, p.domain.radius, p.domain.height));
 }
 
+/// Loads need a rim or walls; and no membrane is flat, to begin with, under a tension below that at which it buckles:
+/// −β (j/R)², j = 3.8317 the first zero of J₁, for a disc whose edge is held horizontally.
+void check_loads(const Parameters& p, const Require& require) {
+    const Loads loads = loads_of(p);
+    if (loads.none()) return;
+    require(p.domain.kind == DomainKind::box,
+            "membrane.rim_tension, membrane.pole_force and fluid.pressure_difference need domain.kind = \"box\"");
+    require(
+        p.membrane.inextensible,
+        "membrane.rim_tension, membrane.pole_force and fluid.pressure_difference need membrane.inextensible = true");
+    require(p.fluid.dynamics == Dynamics::flow,
+            "membrane.rim_tension, membrane.pole_force and fluid.pressure_difference need fluid.dynamics = \"flow\"");
+    constexpr double first_zero = 3.8317059702075125;
+    const double stiffness = BendingModel(p.membrane).stiffness(0).value;
+    const double buckling = -stiffness * std::pow(first_zero / p.domain.radius, 2);
+    require(loads.rim_tension > buckling,
+            fmt::format("membrane.rim_tension = {:g} pN/nm is not above {:.4g} pN/nm, where the flat membrane buckles",
+                        loads.rim_tension, buckling));
+}
+
 void check_times(const Parameters& p, const Require& require) {
     require(p.time.initial_step <= p.time.max_step,
             fmt::format("time.initial_step = {} µs must not exceed time.max_step = {} µs", p.time.initial_step,
@@ -178,6 +200,7 @@ void validate_combination(const Parameters& p, const std::string& where) {
         if (!holds) throw InputError(where + ": " + message);
     };
     if (p.domain.kind == DomainKind::box) check_box(p, require);
+    check_loads(p, require);
     check_times(p, require);
 }
 

@@ -130,6 +130,9 @@ std::vector<ParameterRow> fluid_rows() {
             "flow: the membrane moves with the fluid; geometric: gradient flow of the bending energy, no fluid"),
         row("fluid", "normal_mobility", &P::fluid, &S::normal_mobility, "nm^3/(pN µs)", positive(1e12), "",
             "geometric evolution: normal velocity per normal force density, the sharp limit of γ 3ε/(2√2)"),
+        row("fluid", "pressure_difference", &P::fluid, &S::pressure_difference, "pN/nm^2", {-10, 10}, "p",
+            "pressure outside the cell minus that inside, kept up at the outer walls; > 0 pushes the bud into the "
+            "cell; 1e-3 pN/nm^2 = 1 kPa, the scale of a cell's turgor"),
     };
 }
 
@@ -148,6 +151,12 @@ std::vector<ParameterRow> membrane_rows() {
             "b(c) and H0(c): linear (Table 1), coarse-grained (A.7), lumped (A.8)"),
         row("membrane", "inextensible", &P::membrane, &S::inextensible, "", any(), "",
             "local inextensibility, enforced by the tension λ"),
+        row("membrane", "rim_tension", &P::membrane, &S::rim_tension, "pN/nm", {-10, 10}, "σ",
+            "tension of the membrane at its rim; cells: 0.003 to 0.3 pN/nm (1 pN/nm = 1 mN/m)"),
+        row("membrane", "pole_force", &P::membrane, &S::pole_force, "pN", {-1e4, 1e4}, "F",
+            "force on the membrane around the axis, as of growing actin; > 0 pulls it into the cell"),
+        row("membrane", "pole_force_width", &P::membrane, &S::pole_force_width, "nm", {0.1, 1e3}, "w",
+            "the pole force's density falls off as exp(-a/(π w^2)), a the membrane's area from the pole"),
     };
 }
 

@@ -38,6 +38,7 @@ struct FluidParameters {
     bool inertia = false;
     Dynamics dynamics = Dynamics::flow;
     double normal_mobility = 5.345;
+    double pressure_difference = 0;
 };
 
 struct MembraneParameters {
@@ -47,6 +48,9 @@ struct MembraneParameters {
     CurvatureConvention curvature_convention = CurvatureConvention::as_printed;
     ConstitutiveLaw constitutive_law = ConstitutiveLaw::linear;
     bool inextensible = true;
+    double rim_tension = 0;
+    double pole_force = 0;
+    double pole_force_width = 5;
 };
 
 struct MoleculeParameters {

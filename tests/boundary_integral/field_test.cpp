@@ -56,10 +56,10 @@ struct Box {
           field(make_field()) {}
 
     FlowField make_field() {
-        const BendingModel model(parameters.membrane);
         const MobilityOperators operators = box.operators(state, samples);
-        flow = box.solve(operators, samples, bending_energy(space, state, model, Derivatives::first),
-                         energy_density_at_rim(space, state, model));
+        flow = box.solve(operators, samples,
+                         energy_derivatives(space, state, membrane_energy(parameters), Derivatives::first),
+                         energy_density_at_rim(space, state, membrane_energy(parameters)));
         return {parameters,
                 space,
                 state,

@@ -5,6 +5,7 @@
 
 #include "boundary_integral/flow/box_flow.h"
 #include "curves.h"
+#include "shared/model/bending_model.h"
 
 namespace {
 
@@ -21,11 +22,11 @@ struct Solved {
 };
 
 Solved solve(const Parameters& parameters, const MembraneSpace& space, const BoxFlow& box, const MembraneState& state) {
-    const BendingModel model(parameters.membrane);
     Solved solved{sample(space, state), {}, {}};
     solved.operators = box.operators(state, solved.samples);
-    solved.flow = box.solve(solved.operators, solved.samples, bending_energy(space, state, model, Derivatives::first),
-                            energy_density_at_rim(space, state, model));
+    solved.flow = box.solve(solved.operators, solved.samples,
+                            energy_derivatives(space, state, membrane_energy(parameters), Derivatives::first),
+                            energy_density_at_rim(space, state, membrane_energy(parameters)));
     return solved;
 }
 

@@ -11,6 +11,7 @@
 
 #include "boundary_integral/flow/box_flow.h"
 #include "curves.h"
+#include "shared/model/bending_model.h"
 
 namespace {
 
@@ -58,10 +59,10 @@ double computed_rate(const Parameters& parameters, double q, Index elements) {
         },
         [](double) { return 0.0; });
     const MembraneSamples samples = sample(space, state);
-    const BendingModel model(parameters.membrane);
     const FlowSolution flow =
-        box.solve(box.operators(state, samples), samples, bending_energy(space, state, model, Derivatives::first),
-                  energy_density_at_rim(space, state, model));
+        box.solve(box.operators(state, samples), samples,
+                  energy_derivatives(space, state, membrane_energy(parameters), Derivatives::first),
+                  energy_density_at_rim(space, state, membrane_energy(parameters)));
     return -space.axial().basis(0).evaluate(Eigen::VectorXd(flow.velocity.tail(space.axial_count()))) / amplitude;
 }
 

@@ -16,6 +16,7 @@
 #include "boundary_integral/flow/free_space_flow.h"
 #include "boundary_integral/membrane/energy.h"
 #include "curves.h"
+#include "shared/model/bending_model.h"
 
 namespace {
 
@@ -73,7 +74,7 @@ Eigen::VectorXd velocity_of(const MembraneSpace& space, const MembraneState& sta
 
     const double mean_tension = vesicle.reduced_tension * Vesicle::stiffness() / (radius * radius);
     const Eigen::VectorXd bending =
-        bending_energy(space, state, BendingModel(parameters.membrane), Derivatives::first).gradient;
+        energy_derivatives(space, state, membrane_energy(parameters), Derivatives::first).gradient;
     const Eigen::VectorXd load =
         -operators.freedoms.restrict_rows(bending) -
         constraint.topRows(tensions).transpose() * Eigen::VectorXd::Constant(tensions, mean_tension);

@@ -63,7 +63,7 @@ VesicleErrors errors_of(const statics::VesicleState& exact, Index elements) {
         [&](double u) { return at(u, statics::vesicle::height); }, [](double) { return 0.0; });
     const MembraneSamples samples = sample(space, state);
     const BendingModel model(parameters.membrane);
-    const EnergyDerivatives energy = bending_energy(space, state, model, Derivatives::first);
+    const EnergyDerivatives energy = energy_derivatives(space, state, membrane_energy(parameters), Derivatives::first);
     const FreeSpaceFlow model_of_flow(parameters, space);
     const FlowSolution flow = model_of_flow.solve(model_of_flow.operators(state, samples), samples, energy, 0);
     const double beta = exact.membrane.stiffness;
@@ -105,16 +105,15 @@ BudErrors errors_of(const statics::StationaryState& exact, Index elements) {
         [&](double u) { return at(u, statics::state::concentration); });
     const MembraneSamples samples = sample(space, state);
     const BendingModel model(parameters.membrane);
-    const EnergyDerivatives energy = bending_energy(space, state, model, Derivatives::first);
+    const EnergyDerivatives energy = energy_derivatives(space, state, membrane_energy(parameters), Derivatives::first);
     const BoxFlow box(parameters, space);
-    const FlowSolution flow =
-        box.solve(box.operators(state, samples), samples, energy, energy_density_at_rim(space, state, model));
+    const FlowSolution flow = box.solve(box.operators(state, samples), samples, energy,
+                                        energy_density_at_rim(space, state, membrane_energy(parameters)));
     double tension = 0, largest = 0;
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
         const double u = crowded_at(edge, space.xi[i]);
         const double label = solution.globals(statics::global::area) * u * u;
-        const auto point =
-            statics::point_of_shape(model, parameters.molecules, label, statics::evaluate(solution, rule, u * u));
+        const auto point = statics::point_of_shape(parameters, label, statics::evaluate(solution, rule, u * u));
         tension = std::max(tension, std::abs(space.tension_rows[i].evaluate(flow.multipliers.tension) - point.tension));
         largest = std::max(largest, std::abs(point.tension));
     }

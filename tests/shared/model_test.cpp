@@ -72,22 +72,6 @@ TEST_CASE("the conventions differ by half the stiffness and twice the curvature"
     }
 }
 
-TEST_CASE("derivatives of the bending energy density agree with finite differences") {
-    for (const auto law : laws) {
-        const BendingModel model(membrane(law, CurvatureConvention::as_printed));
-        const double kappa = 0.11, c = 0.4;
-        const auto e = bending_energy_density(model, kappa, c);
-        const auto along_kappa =
-            (bending_energy_density(model, kappa + h, c).value - bending_energy_density(model, kappa - h, c).value) /
-            (2 * h);
-        const auto along_c =
-            (bending_energy_density(model, kappa, c + h).value - bending_energy_density(model, kappa, c - h).value) /
-            (2 * h);
-        CHECK(e.d_curvature == Approx(along_kappa).epsilon(1e-7));
-        CHECK(e.d_concentration == Approx(along_c).epsilon(1e-7));
-    }
-}
-
 TEST_CASE("the double well is (24)'s: W' = 4c³ − 6c² + 2c, minima at 0 and 1") {
     for (const double c : {-0.2, 0.0, 0.3, 0.5, 1.0, 1.1}) {
         CHECK(double_well(c).first == Approx(4 * c * c * c - 6 * c * c + 2 * c).margin(1e-14));

@@ -18,19 +18,19 @@ struct Forces {
     std::vector<double> tension;    // from (A.17), tangential: dλ/ds = −(∂e/∂c) dc/ds, λ(rim) = 0
 };
 
-Forces forces_of(const MembraneCurve& curve, const BendingModel& model) {
+Forces forces_of(const MembraneCurve& curve, const MembraneEnergy& energy) {
     const std::size_t n = curve.size();
     const AxisymmetricSpline r(curve.s, curve.r, Parity::odd), z(curve.s, curve.z, Parity::even),
         c(curve.s, curve.c, Parity::even);
     std::vector<double> moment(n);
     for (std::size_t i = 0; i < n; ++i)
-        moment[i] = bending_energy_density(model, curve.kappa[i], curve.c[i]).d_curvature;
+        moment[i] = energy.density(curve.kappa[i], curve.c[i], 0).partial[local::curvature];
     const AxisymmetricSpline m(curve.s, moment, Parity::even);
 
     Forces forces{std::vector<double>(n, 0), std::vector<double>(n, 0), std::vector<double>(n, 0)};
     const AxisymmetricSpline kappa(curve.s, curve.kappa, Parity::even);
     const auto tension_slope = [&](double s) {
-        return -bending_energy_density(model, kappa.value(s), c.value(s)).d_concentration * c.derivative(s);
+        return -energy.density(kappa.value(s), c.value(s), 0).partial[local::concentration] * c.derivative(s);
     };
     for (std::size_t i = n - 1; i > 0; --i) {
         const double h = curve.s[i] - curve.s[i - 1];
@@ -42,9 +42,9 @@ Forces forces_of(const MembraneCurve& curve, const BendingModel& model) {
     for (std::size_t i = 1; i < n; ++i) {
         const double s = curve.s[i], cosine = r.derivative(s), sine = -z.derivative(s);
         const double hoop = sine / curve.r[i], meridional = curve.kappa[i] - hoop;
-        const double energy = bending_energy_density(model, curve.kappa[i], curve.c[i]).value;
-        const double along = forces.tension[i] + energy - moment[i] * meridional;  // along the meridian
-        const double across = m.derivative(s);                                     // along the normal
+        const double density = energy.density(curve.kappa[i], curve.c[i], 0).value;
+        const double along = forces.tension[i] + density - moment[i] * meridional;  // along the meridian
+        const double across = m.derivative(s);                                      // along the normal
         forces.vertical[i] = across * cosine - along * sine;
         forces.magnitude[i] = std::abs(across * cosine) + std::abs(along * sine);
     }
@@ -59,7 +59,7 @@ TEST_CASE("No vertical force acts on any horizontal cut, and the tension is the 
     parameters.molecules.transport = GENERATE(Transport::advection, Transport::cahn_hilliard);
     const auto state = find_stationary_state(parameters);
     const MembraneCurve curve = sampled_curve(parameters, state.point.solution, GaussRule(Resolution{}.points), 4001);
-    const Forces forces = forces_of(curve, BendingModel(parameters.membrane));
+    const Forces forces = forces_of(curve, membrane_energy(parameters));
     const double scale = *std::max_element(forces.magnitude.begin(), forces.magnitude.end());
     const double largest_tension = *std::max_element(curve.lambda.begin(), curve.lambda.end());
     REQUIRE(scale > 1e-3);  // pN/nm

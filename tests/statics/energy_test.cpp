@@ -28,7 +28,7 @@ struct Variation {
 class VariedShape {
   public:
     VariedShape(const StationaryState& state)
-        : state_(state), rule_(Resolution{}.points), model_(state.parameters.membrane) {
+        : state_(state), rule_(Resolution{}.points), energy_(membrane_energy(state.parameters)) {
         for (const double x : state.point.solution.mesh) mesh_.push_back(std::sqrt(x));
     }
 
@@ -63,8 +63,7 @@ class VariedShape {
                 u(j) = mesh_[i] + h * rule_.nodes(j);
                 const Eigen::VectorXd y = evaluate(solution, rule_, u(j) * u(j));
                 const double r = std::sqrt(y(state::r_squared)), a = area * u(j) * u(j);
-                const PointOfShape here =
-                    point_of_shape(model_, state_.parameters.molecules, base_area * u(j) * u(j), y);
+                const PointOfShape here = point_of_shape(state_.parameters, base_area * u(j) * u(j), y);
                 angle(j) = std::atan2(y(state::hoop) * r, y(state::cosine)) + bump(variation, amount, amplitude, u(j));
                 slope(j) = (here.total_curvature - y(state::hoop)) / r * 2 * base_area * u(j) +  // dθ/du
                            bump_slope(variation, amount, amplitude, u(j));
@@ -75,7 +74,7 @@ class VariedShape {
                 const double r = std::sqrt(totals.r_squared + h * rule_.stages.row(j).dot(growth));
                 const double by_area = slope(j) / (2 * area * u(j));  // dθ/da
                 const double curvature = r * by_area + std::sin(angle(j)) / r;
-                const double density = bending_energy_density(model_, curvature, c[static_cast<std::size_t>(j)]).value;
+                const double density = energy_.density(curvature, c[static_cast<std::size_t>(j)], 0).value;
                 totals.energy += h * rule_.weights(j) * 2 * std::numbers::pi * density * 2 * area * u(j);
             }
             totals.r_squared += h * rule_.weights.dot(growth);
@@ -108,7 +107,7 @@ class VariedShape {
 
     const StationaryState& state_;
     GaussRule rule_;
-    BendingModel model_;
+    MembraneEnergy energy_;
     std::vector<double> mesh_;  // in u
 };
 

@@ -66,6 +66,16 @@ Eigen::Vector3d figures(const StationaryState& state, const std::vector<double>&
     return {s.globals(global::area) / 3200, s.nodes(state::height, 0) / 80, s.nodes(state::moment, 0)};
 }
 
+/// A term that statics does not know: ½ γ κ².
+struct ToyTerm {
+    double stiffness;
+
+    template <class Number>
+    [[nodiscard]] Number density(const LocalShape<Number>& x) const {
+        return 0.5 * stiffness * x.curvature * x.curvature;
+    }
+};
+
 }  // namespace
 
 TEST_CASE("The reference shapes: Cahn-Hilliard equilibrium with the mass of a disc", "[statics]") {
@@ -119,7 +129,7 @@ TEST_CASE("The order of convergence", "[statics]") {
 
 TEST_CASE("The fold in patch radius: no state with a neck beyond 25.6 nm", "[statics]") {
     const auto state = find_stationary_state(patch(24, Transport::cahn_hilliard));
-    const ParameterPath path = [&](double radius) { return patch(radius, Transport::cahn_hilliard); };
+    const CasePath path = [&](double radius) { return patch(radius, Transport::cahn_hilliard); };
     const Visitor until_fold = [](const BranchPoint& point) { return point.folds_before == 0; };
     const auto branch = continue_state(state, path, 24, 30, until_fold);
     REQUIRE(branch);
@@ -135,7 +145,7 @@ TEST_CASE("The fold in patch radius: no state with a neck beyond 25.6 nm", "[sta
 
 TEST_CASE("Folds in spontaneous curvature and in patch radius are the same states", "[statics]") {
     // A fold is where the linearised equations without the parameter are singular, whatever the parameter is.
-    const auto fold = [](const Parameters& from, const ParameterPath& path, double begin, double end) {
+    const auto fold = [](const Parameters& from, const CasePath& path, double begin, double end) {
         const auto branch = continue_state(find_stationary_state(from), path, begin, end,
                                            [](const BranchPoint& point) { return point.folds_before == 0; });
         REQUIRE(branch);
@@ -215,4 +225,32 @@ TEST_CASE("Every constitutive law and convention has a stationary shape for a sm
     const auto state = find_stationary_state(parameters);
     CHECK(state.relative_error < 1e-9);
     CHECK(state.point.solution.nodes(state::height, 0) > 85);
+}
+
+TEST_CASE("A term added to the energy changes the stationary shape as it must", "[statics]") {
+    // With uniform stiffness, ½ β (κ − C)² + ½ γ κ² = ½ (β + γ) (κ − β C/(β + γ))² + a function of c alone, which does
+    // nothing to a shape whose molecules stay in the material.
+    Parameters bare = patch(30, Transport::advection);
+    bare.membrane.bending_stiffness_coated = bare.membrane.bending_stiffness = 200;  // β = 100 pN nm
+    bare.membrane.spontaneous_curvature = 0.03;
+    constexpr double added = 50;
+    Parameters equivalent = bare;
+    equivalent.membrane.bending_stiffness_coated = equivalent.membrane.bending_stiffness = 300;
+    equivalent.membrane.spontaneous_curvature = 0.02;
+    const auto exact = find_stationary_state(equivalent);
+
+    const CasePath with_toy = [&](double stiffness) {
+        return StationaryCase(bare, membrane_energy(bare).add(ToyTerm{stiffness}));
+    };
+    const auto visit = [](const BranchPoint&) { return true; };
+    const auto branch = continue_state(find_stationary_state(bare), with_toy, 0, added, visit);
+    REQUIRE(branch);
+    REQUIRE(branch->end == BranchEnd::reached_target);
+    const auto at_apex = [](const PiecewiseSolution& solution) {
+        return Eigen::Vector3d(solution.nodes(state::height, 0), solution.nodes(state::moment, 0),
+                               solution.globals(global::area));
+    };
+    const Eigen::Vector3d wanted = at_apex(exact.point.solution), found = at_apex(branch->last.solution);
+    REQUIRE(wanted(0) > 85);                                                         // a dome, not a flat membrane
+    for (int i = 0; i < 3; ++i) CHECK(found(i) == Approx(wanted(i)).epsilon(1e-8));  // of two meshes
 }

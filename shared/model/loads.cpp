@@ -1,0 +1,13 @@
+#include "shared/model/loads.h"
+
+#include "shared/support/error.h"
+
+namespace endoflow {
+
+void require_no_loads(const Parameters& parameters, const std::string& engine) {
+    if (loads_of(parameters).none()) return;
+    throw InputError("membrane.rim_tension, membrane.pole_force and fluid.pressure_difference must be 0: the " +
+                     engine + " engine does not have them");
+}
+
+}  // namespace endoflow

@@ -1,0 +1,102 @@
+// The membrane's energy as a sum of terms: derivatives, and the form in which the moment takes the curvature's place.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "shared/model/bending_term.h"
+#include "shared/model/membrane_energy.h"
+#include "shared/support/error.h"
+
+using namespace endoflow;
+
+namespace {
+
+/// Stiffer at high curvatures and where c changes: convex, and quadratic in nothing.
+struct StiffeningTerm {
+    double strength;
+
+    template <class Number>
+    [[nodiscard]] Number density(const LocalShape<Number>& x) const {
+        const Number squared = x.curvature * x.curvature;
+        return strength * ((1.0 + x.concentration) * squared * squared + x.squared_gradient * (1.0 + squared));
+    }
+};
+
+struct LinearTerm {
+    template <class Number>
+    [[nodiscard]] Number density(const LocalShape<Number>& x) const {
+        return 3.0 * x.concentration * x.curvature;
+    }
+};
+
+using Point = std::array<double, local::count>;
+
+/// Derivatives against central differences of the given step: the error is step² of truncation and 1e-16/step.
+template <class Function>
+void check_jet(const Function& f, const Point& at) {
+    constexpr double step = 1e-5;
+    const LocalJet here = f(at);
+    double scale = 0;
+    for (const double x : here.partial) scale = std::max(scale, std::abs(x));
+    double second_scale = 0;
+    for (const auto& row : here.second)
+        for (const double x : row) second_scale = std::max(second_scale, std::abs(x));
+    for (std::size_t i = 0; i < local::count; ++i) {
+        Point above = at, below = at;
+        above[i] += step, below[i] -= step;
+        const LocalJet up = f(above), down = f(below);
+        CHECK(here.partial[i] == Approx((up.value - down.value) / (2 * step)).margin(1e-8 * scale));
+        for (std::size_t j = 0; j < local::count; ++j) {
+            CAPTURE(i, j);
+            CHECK(here.second[i][j] ==
+                  Approx((up.partial[j] - down.partial[j]) / (2 * step)).margin(1e-8 * second_scale));
+        }
+    }
+}
+
+MembraneEnergy stiffening_membrane() {
+    return membrane_energy(Parameters{}).add(StiffeningTerm{40});
+}
+
+}  // namespace
+
+TEST_CASE("an energy's derivatives agree with finite differences, those of its Legendre transform, too") {
+    for (const auto law : {ConstitutiveLaw::linear, ConstitutiveLaw::coarse_grained, ConstitutiveLaw::lumped}) {
+        Parameters parameters;
+        parameters.membrane.constitutive_law = law;
+        for (const MembraneEnergy& energy : {membrane_energy(parameters), stiffening_membrane()}) {
+            check_jet([&](const Point& x) { return energy.density(x[0], x[1], x[2]); }, {0.11, 0.4, 0.02});
+            check_jet([&](const Point& x) { return energy.conjugate(x[0], x[1], x[2]); }, {7.0, 0.4, 0.02});
+        }
+    }
+}
+
+TEST_CASE("the curvature of a moment is that at which the energy has this moment") {
+    const MembraneEnergy energy = stiffening_membrane();
+    for (const double moment : {-30.0, 0.0, 2.0, 400.0}) {
+        const auto state = elastic_state<double>(energy, moment, 0.7, 0.1);
+        const LocalJet e = energy.density(state.curvature, 0.7, 0.1);
+        CHECK(e.partial[local::curvature] == Approx(moment).margin(1e-10));
+        CHECK(state.density == Approx(e.value).epsilon(1e-12));
+        CHECK(state.by_concentration == Approx(e.partial[local::concentration]).epsilon(1e-12));
+        CHECK(state.by_squared_gradient == Approx(e.partial[local::squared_gradient]).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("bending: κ = C + m/β and e = m²/(2β)") {
+    const Parameters parameters;
+    const BendingModel model(parameters.membrane);
+    for (const double c : {0.0, 0.3, 1.0}) {
+        const double moment = 5, beta = model.stiffness(c).value, spontaneous = model.spontaneous_curvature(c).value;
+        const auto state = elastic_state<double>(membrane_energy(parameters), moment, c, 0);
+        CHECK(state.curvature == Approx(spontaneous + moment / beta).epsilon(1e-14));
+        CHECK(state.density == Approx(0.5 * moment * moment / beta).epsilon(1e-13));
+        CHECK(state.by_squared_gradient == 0);
+    }
+}
+
+TEST_CASE("an energy whose moment does not determine the curvature is an error with a name") {
+    const MembraneEnergy energy = MembraneEnergy().add(LinearTerm{});
+    CHECK_THROWS_AS(energy.conjugate(1, 0.5, 0), SolverError);
+    CHECK(std::isnan(energy.conjugate(std::nan(""), 0.5, 0).value));
+}
