@@ -2,6 +2,7 @@
 
 #include <cblas.h>
 #include <fmt/format.h>
+#include <sundials/sundials_config.h>
 
 #include <Eigen/Core>
 
@@ -34,7 +35,8 @@ EngineIdentity identity(const Parameters& parameters) {
     identity.name = "boundary-integral";
     identity.threads = thread_count(parameters.boundary_integral.threads);
     identity.libraries = {
-        {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+        {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+        {"sundials", SUNDIALS_VERSION}};
     identity.history_columns = own_history_columns();
     identity.kept_parameters = {"domain.kind", "domain.radius", "domain.membrane_height", "boundary_integral.elements"};
     return identity;

@@ -15,13 +15,13 @@ std::optional<ExitReason> NeckEvents::look(const StiffIntegrator& integrator, Hi
         return neck ? neck->radius : std::numeric_limits<double>::infinity();
     };
     if (!budded_) {
-        if (const auto time = integrator.falls_below(neck_radius, budding_neck_radius)) {
+        if (const auto time = falls_below(integrator, neck_radius, budding_neck_radius)) {
             budded_ = true;
             record("budding", *time, integrator, history);
             if (parameters_.output.stop_at_budding) return ExitReason::budded;
         }
     }
-    if (const auto time = integrator.falls_below(neck_radius, parameters_.boundary_integral.neck_closed_radius)) {
+    if (const auto time = falls_below(integrator, neck_radius, parameters_.boundary_integral.neck_closed_radius)) {
         record("neck_closed", *time, integrator, history);
         return ExitReason::neck_closed;
     }

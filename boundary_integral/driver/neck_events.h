@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "boundary_integral/driver/history_recorder.h"
-#include "boundary_integral/evolution/stiff_integrator.h"
+#include "boundary_integral/integration/stiff_integrator.h"
 
 namespace endoflow::boundary_integral {
 

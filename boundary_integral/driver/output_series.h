@@ -2,7 +2,7 @@
 
 #include "boundary_integral/evolution/membrane_dynamics.h"
 #include "boundary_integral/evolution/observation.h"
-#include "boundary_integral/evolution/stiff_integrator.h"
+#include "boundary_integral/integration/stiff_integrator.h"
 #include "shared/output/field_index.h"
 #include "shared/output/run_output.h"
 

@@ -23,12 +23,14 @@ class RunLoop {
           history_(parameters, dynamics_, output),
           events_(parameters, dynamics_, output),
           series_(parameters, dynamics_, output),
-          integrator_(problem(), start(), {parameters.time.max_step, smallest_step}) {}
+          start_(start()),
+          integrator_(problem(), start_, {parameters.time.max_step, smallest_step}) {}
 
     ExitReason execute() {
         series_.write_initial(integrator_.state());
+        resume_ = make_checkpoint();
         while (integrator_.time() < parameters_.time.end) {
-            resume_ = make_checkpoint();
+            if (integrator_.statistics().steps == next_start_) start_anew();
             if (interruption_signal() != 0) return stop(ExitReason::interrupted);
             if (output_.checkpoint_due()) output_.write_checkpoint(resume_);
             advance();
@@ -49,32 +51,39 @@ class RunLoop {
     OutputSeries series_;
     std::shared_ptr<const MobilityOperators> operators_;  // of the step's predicted shape
     Evaluation latest_;                                   // of the last rate the integrator asked for
+    StartingPoint start_;                                 // of the integrator
     StiffIntegrator integrator_;
-    Checkpoint resume_;  // of the time before the last step
+    Checkpoint resume_;  // of the integrator's starting point
+    long next_start_ = parameters_.boundary_integral.restart_interval;
     long rejected_ = 0;
 
-    // The last step may have been cut short by time.end or end at an event: the checkpoint of the time before it lets a
-    // restart make the steps that a run without this end makes.
+    // A checkpoint is always of a point where the integrator starts anew: a restart then makes the steps that a run
+    // without interruption makes, whenever it was interrupted, and whatever its end was.
     [[nodiscard]] Checkpoint make_checkpoint() const {
         Checkpoint checkpoint;
-        save(integrator_.history(), checkpoint);
+        save(start_, checkpoint);
         history_.save(checkpoint);
         events_.save(checkpoint);
         series_.save(checkpoint);
         return checkpoint;
     }
 
-    StepHistory start() {
+    void start_anew() {
+        start_ = integrator_.start_anew();
+        next_start_ += parameters_.boundary_integral.restart_interval;
+        resume_ = make_checkpoint();
+    }
+
+    StartingPoint start() {
         if (const auto& checkpoint = output_.restart_point()) {
             history_.restore(*checkpoint);
             events_.restore(*checkpoint);
             series_.restore(*checkpoint);
-            return restored_history(*checkpoint, dynamics_.size(), output_.directory().string());
+            return restored_start(*checkpoint, dynamics_.size(), output_.directory().string());
         }
         const Eigen::VectorXd initial = dynamics_.initial_vector();
-        const Evaluation evaluation = dynamics_.evaluate(initial);
-        history_.start(evaluation);
-        return StepHistory::start(0.0, parameters_.time.initial_step, initial, evaluation.rate);
+        history_.start(dynamics_.evaluate(initial));
+        return {0.0, parameters_.time.initial_step, initial};
     }
 
     StiffProblem problem() {
@@ -109,10 +118,12 @@ class RunLoop {
         output_.write_checkpoint(resume_);
         const auto& statistics = integrator_.statistics();
         output_.note("integrator", {{"steps", statistics.steps},
+                                    {"operators", statistics.steps_begun},
                                     {"rate_evaluations", statistics.rates},
                                     {"jacobians", statistics.jacobians},
                                     {"error_test_failures", statistics.error_test_failures},
-                                    {"convergence_failures", statistics.convergence_failures}});
+                                    {"convergence_failures", statistics.convergence_failures},
+                                    {"steps_of_order", statistics.steps_of_order}});
         output_.note("unknowns", dynamics_.size());
         if (const BoxFlow* box = dynamics_.box()) output_.note("wall_unknowns", box->walls().unknowns());
         return reason;

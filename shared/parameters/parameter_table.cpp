@@ -252,6 +252,8 @@ std::vector<ParameterRow> boundary_integral_rows() {
             "part of the mesh over which the element density is filtered, so that neighbours are similar"),
         row("boundary_integral", "mesh_relaxation_time", &P::boundary_integral, &S::mesh_relaxation_time, "µs",
             {1e-5, 1e3}, "", "time in which elements move to where they are wanted"),
+        row("boundary_integral", "restart_interval", &P::boundary_integral, &S::restart_interval, "", at_least(5, 1e6),
+            "", "time steps between points that a restart can go on from; the integrator starts anew at each of them"),
         row("boundary_integral", "neck_closed_radius", &P::boundary_integral, &S::neck_closed_radius, "nm",
             at_least(0, 10), "", "the run ends with neck_closed when the neck radius falls below this"),
         row("boundary_integral", "field_spacing", &P::boundary_integral, &S::field_spacing, "nm", {0.1, 1e3}, "",

@@ -98,6 +98,7 @@ struct BoundaryIntegralParameters {
     double mesh_edge_weight = 4;
     double mesh_smoothing = 0.05;
     double mesh_relaxation_time = 0.002;
+    int restart_interval = 200;
     double neck_closed_radius = 0.5;
     double field_spacing = 2;
 };

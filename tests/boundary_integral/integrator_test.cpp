@@ -6,8 +6,9 @@
 #include <memory>
 #include <stdexcept>
 
-#include "boundary_integral/evolution/stiff_integrator.h"
 #include "boundary_integral/flow/dense_solver.h"
+#include "boundary_integral/integration/cvode_failures.h"
+#include "boundary_integral/integration/stiff_integrator.h"
 #include "shared/support/error.h"
 
 namespace {
@@ -15,14 +16,13 @@ namespace {
 using namespace endoflow;
 using namespace endoflow::boundary_integral;
 
-// y1' = -1000 (y1 - cos t) - sin t,  y2' = -y2^2: y1 = cos t, y2 = 1/(1 + t).
+/// y1' = −1000 (y1 − cos y3) − sin y3,  y2' = −y2²,  y3' = 1: y1 = cos t, y2 = 1/(1 + t), y3 = t.
 StiffProblem problem(double tolerance) {
     StiffProblem result;
     const auto at = std::make_shared<Eigen::VectorXd>();
     result.begin_step = [](const Eigen::VectorXd&) {};
     result.rate = [at](const Eigen::VectorXd& y) -> Eigen::VectorXd {
         *at = y;
-        // y3 is the time.
         return Eigen::Vector3d(-1000 * (y[0] - std::cos(y[2])) - std::sin(y[2]), -y[1] * y[1], 1.0);
     };
     result.jacobian = [at] {
@@ -36,33 +36,63 @@ StiffProblem problem(double tolerance) {
     return result;
 }
 
-StiffIntegrator integrator(double tolerance) {
-    StiffProblem p = problem(tolerance);
-    const Eigen::Vector3d y(1, 1, 0);
-    const Eigen::VectorXd rate = p.rate(y);
-    return {p, StepHistory::start(0, 1e-6, y, rate), {1, 1e-14}};
+const StartingPoint beginning{0.0, 1e-6, Eigen::Vector3d(1, 1, 0)};
+const StepLimits limits{1.0, 1e-14};
+
+double error(const StiffIntegrator& i) {
+    return std::hypot(i.state()[0] - std::cos(i.time()), i.state()[1] - 1 / (1 + i.time()));
 }
 
-double error_at_end(double tolerance, long& steps) {
-    StiffIntegrator i = integrator(tolerance);
-    while (i.time() < 5) i.advance(5);
-    CHECK(i.time() == 5);
-    steps = i.statistics().steps;
-    return std::hypot(i.state()[0] - std::cos(5.0), i.state()[1] - 1 / 6.0);
+void integrate(StiffIntegrator& i, double end) {
+    while (i.time() < end) i.advance(end);
+}
+
+/// The error that stops the integration of a problem to t = 1.
+SolverError failure_of(const StiffProblem& p, double& reached) {
+    StiffIntegrator i(p, beginning, limits);
+    try {
+        integrate(i, 1);
+    } catch (const SolverError& error) {
+        reached = i.time();
+        return error;
+    }
+    throw std::logic_error("the integration must not reach its end");
 }
 
 }  // namespace
 
 TEST_CASE("the error follows the tolerance, and the order follows the error", "[integrator]") {
-    long coarse = 0, fine = 0;
-    CHECK(error_at_end(1e-5, coarse) < 1e-4);
-    CHECK(error_at_end(1e-9, fine) < 1e-8);
+    const auto steps = [](double tolerance) {
+        StiffIntegrator i(problem(tolerance), beginning, limits);
+        integrate(i, 5);
+        CHECK(i.time() == 5);
+        CHECK(error(i) < 10 * tolerance);  // some hundred steps, each with an error below one tolerance, and damping
+        return i.statistics();
+    };
+    const auto coarse = steps(1e-5), fine = steps(1e-9);
     // 1e4 in accuracy costs a first-order method 100 times the steps, a fifth-order one 5 times.
-    CHECK(fine < 10 * coarse);
+    CHECK(fine.steps < 10 * coarse.steps);
+    CHECK(fine.steps_of_order[5] + fine.steps_of_order[4] > fine.steps / 2);
+    long steps_of_all_orders = 0;
+    for (const long count : fine.steps_of_order) steps_of_all_orders += count;
+    CHECK(steps_of_all_orders == fine.steps);
+}
+
+TEST_CASE("what is made for a step is made once for each attempted step", "[integrator]") {
+    StiffProblem p = problem(1e-6);
+    long begun = 0;
+    p.begin_step = [&begun](const Eigen::VectorXd&) { ++begun; };
+    StiffIntegrator i(p, beginning, limits);
+    integrate(i, 5);
+    const auto& s = i.statistics();
+    CHECK(begun == s.steps_begun);
+    CHECK(begun <= 1 + s.steps + s.error_test_failures + s.convergence_failures);  // 1: the rate at the start
+    CHECK(s.jacobians <= begun);
+    CHECK(s.rates >= s.steps);
 }
 
 TEST_CASE("between steps the solution is as accurate as at them", "[integrator]") {
-    StiffIntegrator i = integrator(1e-7);
+    StiffIntegrator i(problem(1e-7), beginning, limits);
     while (i.time() < 3) i.advance(5);
     for (const double part : {0.1, 0.5, 0.9}) {
         const double time = i.time() - part * i.last_step();
@@ -71,65 +101,83 @@ TEST_CASE("between steps the solution is as accurate as at them", "[integrator]"
     }
 }
 
-TEST_CASE("an integration resumed from its history makes the same steps", "[integrator]") {
-    StiffIntegrator whole = integrator(1e-6);
+TEST_CASE("an integration resumed where it started anew makes the same steps", "[integrator]") {
+    StiffIntegrator whole(problem(1e-6), beginning, limits);
     for (int k = 0; k < 40; ++k) whole.advance(5);
-    const StepHistory stored = whole.history();
-    StiffIntegrator resumed(problem(1e-6), stored, {1, 1e-14});
+    const StartingPoint point = whole.start_anew();
+    CHECK(point.time == whole.time());
+    StiffIntegrator resumed(problem(1e-6), point, limits);
     for (int k = 0; k < 20; ++k) {
         whole.advance(5);
-        resumed.advance(5);
+        resumed.advance(k < 10 ? 5 : 6);  // the end does not matter before it is near
     }
     CHECK(whole.time() == resumed.time());
     CHECK(whole.state() == resumed.state());
 }
 
-TEST_CASE("a level is located inside a step", "[integrator]") {
-    StiffIntegrator i = integrator(1e-8);
-    const auto second = [](const Eigen::VectorXd& y) { return y[1]; };
-    std::optional<double> found;
-    while (!found && i.time() < 5) {
-        i.advance(5);
-        found = i.falls_below(second, 0.5);
-    }
-    REQUIRE(found);
-    CHECK(*found == Approx(1).epsilon(1e-6));  // 1/(1 + t) = 1/2
-    CHECK(second(i.state_at(*found)) == Approx(0.5).epsilon(1e-12));
+TEST_CASE("starting anew costs few steps and no accuracy", "[integrator]") {
+    StiffIntegrator whole(problem(1e-6), beginning, limits), interrupted(problem(1e-6), beginning, limits);
+    integrate(whole, 5);
+    for (int k = 0; k < 30; ++k) interrupted.advance(5);
+    (void)interrupted.start_anew();
+    integrate(interrupted, 5);
+    CHECK(error(interrupted) < 1e-5);
+    // At most what it took to get there the first time: step and order grow to what they were.
+    CHECK(interrupted.statistics().steps < whole.statistics().steps + 30);
 }
 
-TEST_CASE("a problem that cannot be integrated ends with a name", "[integrator]") {
+TEST_CASE("a level is located inside a step", "[integrator]") {
+    StiffIntegrator i(problem(1e-8), beginning, limits);
+    const auto second = [](const Eigen::VectorXd& y) { return y[1]; };
+    // As the neck of a membrane, which is not there at first.
+    const auto late = [](const Eigen::VectorXd& y) {
+        return y[1] > 0.501 ? std::numeric_limits<double>::infinity() : y[1];
+    };
+    std::optional<double> found, found_late;
+    while (!found && i.time() < 5) {
+        i.advance(5);
+        found = falls_below(i, second, 0.5);
+        found_late = falls_below(i, late, 0.5);
+    }
+    REQUIRE(found);
+    REQUIRE(found_late);
+    CHECK(*found == Approx(1).epsilon(1e-6));  // 1/(1 + t) = 1/2
+    CHECK(second(i.state_at(*found)) == Approx(0.5).epsilon(1e-12));
+    CHECK(*found_late == Approx(*found).epsilon(1e-12));
+}
+
+TEST_CASE("a problem that cannot be integrated ends with a name", "[integrator][faults]") {
     StiffProblem p = problem(1e-6);
-    const auto rate = p.rate;
-    p.rate = [rate](const Eigen::VectorXd& y) -> Eigen::VectorXd {
+    p.rate = [rate = p.rate](const Eigen::VectorXd& y) -> Eigen::VectorXd {
         if (y[2] > 0.1) return Eigen::Vector3d::Constant(std::nan(""));
         return rate(y);
     };
-    const Eigen::Vector3d y(1, 1, 0);
-    StiffIntegrator i(p, StepHistory::start(0, 1e-6, y, rate(y)), {1, 1e-12});
-    try {
-        while (i.time() < 1) i.advance(1);
-        FAIL("the rate is not finite beyond 0.1");
-    } catch (const SolverError& error) {
-        CHECK(error.name() == "step-size-underflow");
-        CHECK(std::string(error.what()).find("not finite") != std::string::npos);
-    }
-    CHECK(i.time() == Approx(0.1).epsilon(1e-3));
+    double reached = 0;
+    const SolverError failure = failure_of(p, reached);
+    CHECK(failure.name() == "step-size-underflow");
+    CHECK(std::string(failure.what()).find("not finite") != std::string::npos);
+    CHECK(reached == Approx(0.1).epsilon(1e-3));
 }
 
-namespace {
-
-// Integrates to t = 1 and returns the error there.
-double error_at_one(StiffIntegrator& i) {
-    while (i.time() < 1) i.advance(1);
-    return std::hypot(i.state()[0] - std::cos(1.0), i.state()[1] - 0.5);
+TEST_CASE("a rate that is missing where the integration starts is named", "[integrator][faults]") {
+    StiffProblem p = problem(1e-6);
+    p.rate = [](const Eigen::VectorXd&) -> Eigen::VectorXd { throw SolverError("injected", "no rate", "none"); };
+    double reached = 0;
+    const SolverError failure = failure_of(p, reached);
+    CHECK(failure.name() == "no-rate");
+    CHECK(std::string(failure.what()).find("injected") != std::string::npos);
 }
 
-StiffIntegrator start(const StiffProblem& p, double first_step) {
-    const Eigen::Vector3d y(1, 1, 0);
-    return {p, StepHistory::start(0, first_step, y, problem(1e-6).rate(y)), {1, 1e-12}};
+TEST_CASE("what is no failure of a step is passed on", "[integrator][faults]") {
+    StiffProblem p = problem(1e-6);
+    int calls = 0;
+    p.begin_step = [&calls](const Eigen::VectorXd&) {
+        if (++calls == 5) throw IoError("the disk is full");
+    };
+    StiffIntegrator i(p, beginning, limits);
+    CHECK_THROWS_AS(integrate(i, 1), IoError);
+    CHECK(calls == 5);
 }
-
-}  // namespace
 
 TEST_CASE("a residual that is not finite costs one rejected step", "[integrator][faults]") {
     for (const double fault : {std::nan(""), std::numeric_limits<double>::infinity()}) {
@@ -140,39 +188,36 @@ TEST_CASE("a residual that is not finite costs one rejected step", "[integrator]
             if (++calls == 40) value[1] = fault;
             return value;
         };
-        StiffIntegrator i = start(p, 1e-6);
-        CHECK(error_at_one(i) < 1e-5);  // ten times the tolerance per step, as without the fault
-        CHECK(i.statistics().convergence_failures == 1);
+        StiffIntegrator i(p, beginning, limits);
+        integrate(i, 1);
+        CHECK(calls > 40);
+        CHECK(error(i) < 1e-5);  // ten times the tolerance per step, as without the fault
     }
 }
 
 TEST_CASE("a singular matrix is left behind by a smaller step", "[integrator][faults]") {
-    // 1 − (h/α) ∂F/∂y vanishes for the first step h; α = 1 + 0.185 at order 1.
+    // 1 − h ∂F/∂y vanishes for the first step h of order 1.
     constexpr double first_step = 1e-3;
     StiffProblem p = problem(1e-6);
     int calls = 0;
     p.jacobian = [jacobian = p.jacobian, &calls]() -> Eigen::MatrixXd {
         if (++calls > 1) return jacobian();
-        return Eigen::MatrixXd::Identity(3, 3) / (first_step * (1 / 1.185));
+        return Eigen::MatrixXd::Identity(3, 3) * (1 / first_step);
     };
-    StiffIntegrator i = start(p, first_step);
-    CHECK(error_at_one(i) < 1e-5);
-    CHECK(i.statistics().convergence_failures >= 1);
+    StiffIntegrator i(p, {0.0, first_step, beginning.y}, limits);
+    integrate(i, 1);
+    CHECK(error(i) < 1e-5);
+    CHECK(i.statistics().convergence_failures + i.statistics().error_test_failures >= 1);
 }
 
 TEST_CASE("a factorisation that always fails ends with the name of the failure and a remedy", "[integrator][faults]") {
     StiffProblem p = problem(1e-6);
     p.jacobian = [] { return Eigen::MatrixXd::Constant(3, 3, std::nan("")).eval(); };
-    StiffIntegrator i = start(p, 1e-6);
-    try {
-        i.advance(1);
-        FAIL("the matrix is not finite");
-    } catch (const SolverError& error) {
-        CHECK(error.name() == "step-size-underflow");
-        CHECK(std::string(error.what()).find("singular-matrix") != std::string::npos);
-        CHECK(std::string(error.what()).find("use more elements") != std::string::npos);
-    }
-    CHECK(i.state() == Eigen::Vector3d(1, 1, 0));  // what had been reached stands
+    double reached = 1;
+    const SolverError failure = failure_of(p, reached);
+    CHECK(std::string(failure.what()).find("singular-matrix") != std::string::npos);
+    CHECK(std::string(failure.what()).find("use more elements") != std::string::npos);
+    CHECK(reached == 0);
     CHECK_THROWS_AS(LuFactors(Eigen::MatrixXd::Zero(3, 3), "zero"), SolverError);
 }
 
@@ -181,9 +226,24 @@ TEST_CASE("ten failed steps in a row are survived", "[integrator][faults]") {
     int calls = 0;
     p.begin_step = [&calls](const Eigen::VectorXd&) {
         ++calls;
-        if (calls > 30 && calls <= 40) throw std::runtime_error("injected");
+        if (calls > 30 && calls <= 40) throw SolverError("injected", "nothing", "none");
     };
-    StiffIntegrator i = start(p, 1e-6);
-    CHECK(error_at_one(i) < 1e-5);
-    CHECK(i.statistics().convergence_failures == 10);
+    StiffIntegrator i(p, beginning, {1, 1e-16});
+    integrate(i, 1);
+    CHECK(error(i) < 1e-5);
+}
+
+TEST_CASE("every failure that CVODE can report has a name and a remedy", "[integrator][faults]") {
+    for (int flag = -1; flag >= -32; --flag) {
+        CAPTURE(flag);
+        try {
+            throw_cvode_failure(flag, 0.5, "the reason");
+        } catch (const SolverError& error) {
+            const std::string text = error.what();
+            CHECK(text.find("at t = 0.5 µs (the reason); ") != std::string::npos);
+            CHECK(text.find("; ") + 2 < text.size());
+        }
+    }
+    CHECK_NOTHROW(require_success(CV_TSTOP_RETURN, "CVode"));
+    CHECK_THROWS_AS(require_success(CV_MEM_FAIL, "CVodeInit"), SolverError);
 }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "boundary_integral/simulation.h"
+#include "shared/output/run_directory.h"
 #include "shared/support/error.h"
 
 namespace {
@@ -68,6 +69,12 @@ ExitReason run(const Parameters& parameters, const fs::path& directory, StartMod
 nlohmann::json record_of(const fs::path& directory) {
     std::ifstream file(directory / "run.json");
     return nlohmann::json::parse(file);
+}
+
+double latest_checkpoint_time(const fs::path& directory) {
+    const auto checkpoint = read_checkpoint_file(RunDirectory{directory}.checkpoint());
+    REQUIRE(checkpoint);
+    return checkpoint->time_us;
 }
 
 Parameters standard(int elements, double end) {
@@ -155,9 +162,16 @@ TEST_CASE("with the consistent convention the patch does not bud", "[run]") {
 
 TEST_CASE("a restarted run makes the rows it would have made", "[run]") {
     const ScratchDirectory whole("whole"), halves("halves");
-    run(standard(32, 0.02), whole.path);
-    run(standard(32, 0.01), halves.path);
-    run(standard(32, 0.02), halves.path, StartMode::restart);
+    Parameters parameters = standard(32, 0.02);
+    parameters.boundary_integral.restart_interval = 8;
+    run(parameters, whole.path);
+    parameters.time.end = 0.01;
+    run(parameters, halves.path);
+    const double resumed_at = latest_checkpoint_time(halves.path);
+    CHECK(resumed_at > 0.005);
+    CHECK(resumed_at < 0.01);
+    parameters.time.end = 0.02;
+    run(parameters, halves.path, StartMode::restart);
     const Table a = read_table(whole.path / "history.csv"), b = read_table(halves.path / "history.csv");
     REQUIRE(a.size() == b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -197,6 +211,7 @@ TEST_CASE("the number of threads does not matter", "[run][threads]") {
 TEST_CASE("a restart after budding goes on through it", "[run]") {
     const ScratchDirectory whole("whole-budding"), halves("halves-budding");
     Parameters parameters = standard(32, 0.9);
+    parameters.boundary_integral.restart_interval = 40;
     run(parameters, whole.path);
     parameters.output.stop_at_budding = true;
     CHECK(run(parameters, halves.path) == ExitReason::budded);
@@ -215,6 +230,7 @@ TEST_CASE("fields are written at their interval, also after a restart", "[run][t
     parameters.output.field_interval = 0.0005;
     parameters.boundary_integral.field_spacing = 20;
     parameters.boundary_integral.threads = 2;
+    parameters.boundary_integral.restart_interval = 8;
     run(parameters, whole.path);
     parameters.time.end = 0.0012;
     run(parameters, halves.path);

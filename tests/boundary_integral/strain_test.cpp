@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "boundary_integral/evolution/material_strain.h"
-#include "boundary_integral/evolution/stiff_integrator.h"
+#include "boundary_integral/integration/stiff_integrator.h"
 
 namespace {
 
@@ -84,7 +84,7 @@ TEST_CASE("the stretching of an extensible membrane is that of its area", "[stra
     };
     problem.jacobian = [&] { return dynamics.jacobian(now); };
     problem.error_scales = dynamics.error_scales(y, 1e-6, 1e-6);
-    StiffIntegrator integrator(problem, StepHistory::start(0, 1e-7, y, now.rate), {1e-4, 1e-14});
+    StiffIntegrator integrator(problem, {0, 1e-7, y}, {1e-4, 1e-14});
     MaterialRates rates = strain.rates(now);
     for (double time = 0; time < 0.002; time = integrator.time()) {
         integrator.advance(0.002);

@@ -26,7 +26,11 @@ TOLERANCE = {"boundary-integral": 1e-10, "phase-field": 1e-8}
 
 # Small enough that a run takes seconds; a checkpoint after every step, a shape about as often.
 SETTINGS = {
-    "boundary-integral": {"boundary_integral.elements": 24, "boundary_integral.threads": 1},
+    "boundary-integral": {
+        "boundary_integral.elements": 24,
+        "boundary_integral.threads": 1,
+        "boundary_integral.restart_interval": 8,  # so that there are many points to go on from
+    },
     "phase-field": {
         "domain.radius": 40,
         "domain.height": 40,
