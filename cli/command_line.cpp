@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <new>
 
-#include "shared/parameters/case_file.h"
+#include "shared/case/case_file.h"
 #include "shared/support/error.h"
 
 namespace endoflow::cli {

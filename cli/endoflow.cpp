@@ -10,7 +10,7 @@
 #include "command_line.h"
 #include "laws.h"
 #include "process.h"
-#include "shared/parameters/case_file.h"
+#include "shared/case/case_file.h"
 #include "shared/parameters/parameter_rendering.h"
 #include "shared/support/error.h"
 #include "shared/support/nearest_word.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shared/case/case_checks.h"
 #include "shared/parameters/parameter_table.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
@@ -103,7 +104,7 @@ Request::Continuation parse_continuation(const std::string& text, const Paramete
     if (value.empty() || *rest != '\0') throw InputError(where + ": END must be a number");
     Parameters checked = parameters;
     set_parameter(checked, *find_parameter(key), end, where);
-    validate_combination(checked, where);
+    check_case(checked, where);
     if (end == number_of(parameters, key))
         throw InputError(fmt::format("{}: the case already has {} = {}", where, key, value));
     return {key, end};

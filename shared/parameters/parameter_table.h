@@ -58,8 +58,4 @@ struct ParameterRow {
 void set_parameter(Parameters& parameters, const ParameterRow& row, const ParameterValue& value,
                    const std::string& where);
 
-/// Checks that involve several parameters (a patch inside the domain, a membrane away from the walls).
-/// Throws InputError that begins with `where`.
-void validate_combination(const Parameters& parameters, const std::string& where);
-
 }  // namespace endoflow

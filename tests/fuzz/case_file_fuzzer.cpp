@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "shared/parameters/case_file.h"
+#include "shared/case/case_file.h"
 #include "shared/parameters/parameter_rendering.h"
 #include "shared/parameters/parameter_table.h"
 #include "shared/support/error.h"

@@ -1,4 +1,4 @@
-#include "shared/parameters/case_file.h"
+#include "shared/case/case_file.h"
 
 #include <catch2/catch.hpp>
 #include <fstream>

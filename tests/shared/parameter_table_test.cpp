@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "shared/parameters/case_file.h"
+#include "shared/case/case_file.h"
 #include "shared/parameters/parameter_rendering.h"
 #include "shared/support/error.h"
 #include "shared/support/nearest_word.h"

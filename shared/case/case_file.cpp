@@ -1,4 +1,4 @@
-#include "shared/parameters/case_file.h"
+#include "shared/case/case_file.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "shared/case/case_checks.h"
 #include "shared/parameters/parameter_table.h"
 #include "shared/support/error.h"
 #include "shared/support/nearest_word.h"
@@ -148,7 +149,7 @@ Parameters parse_case(const std::string& text, const std::string& source_name,
             fmt::format("{}: not valid TOML: {}", location(source_name, error.source()), error.description()));
     }
     for (const auto& item : overrides) apply_override(parameters, item);
-    validate_combination(parameters, source_name);
+    check_case(parameters, source_name);
     return parameters;
 }
 

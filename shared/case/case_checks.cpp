@@ -1,0 +1,95 @@
+#include "shared/case/case_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "shared/model/bending_model.h"
+#include "shared/model/loads.h"
+#include "shared/support/error.h"
+
+namespace endoflow {
+
+namespace {
+
+/// More shapes or field files than this in a run, or points in one, fill disks and memories and are looked at by
+/// nobody.
+constexpr double most_outputs = 1e6;
+constexpr double most_field_points = 1e7;
+
+/// More cells of the phase field than this along the domain do not fit into any memory.
+constexpr double most_cells_across = 2e5;
+
+using Require = std::function<void(bool holds, const std::string& message)>;
+
+void check_box(const Parameters& p, const Require& require) {
+    const double below = p.domain.membrane_height, above = p.domain.height - p.domain.membrane_height;
+    require(p.molecules.patch_radius < p.domain.radius,
+            fmt::format("molecules.patch_radius = {} nm must be smaller than domain.radius = {} nm",
+                        p.molecules.patch_radius, p.domain.radius));
+    const double room = p.domain.pin_half_width + p.domain.wall_clearance;
+    require(below > room && above > room,
+            fmt::format("domain.membrane_height = {} nm must lie farther than pin_half_width + wall_clearance = {} "
+                        "nm from the bottom (0) and the top (domain.height = {} nm)",
+                        below, room, p.domain.height));
+    const double h = p.phase_field.cell_size > 0 ? p.phase_field.cell_size : p.phase_field.epsilon;
+    require(std::max(p.domain.radius, p.domain.height) <= most_cells_across * h,
+            fmt::format("phase_field.cell_size = {} nm (0: phase_field.epsilon = {} nm decides) is too small for "
+                        "domain.radius = {} nm and domain.height = {} nm: more than {} cells",
+                        p.phase_field.cell_size, p.phase_field.epsilon, p.domain.radius, p.domain.height,
+                        most_cells_across));
+    const double spacing = p.boundary_integral.field_spacing;
+    require(
+        p.output.field_interval == 0 || (p.domain.radius / spacing) * (p.domain.height / spacing) <= most_field_points,
+        fmt::format("boundary_integral.field_spacing = {} nm gives more than {} points in a domain.radius = {} nm by "
+                    "domain.height = {} nm; enlarge it, or set output.field_interval = 0",
+                    spacing, most_field_points, p.domain.radius, p.domain.height));
+}
+
+/// Loads need a rim or walls; and no membrane is flat, to begin with, under a tension below that at which it buckles:
+/// −β (j/R)², j = 3.8317 the first zero of J₁, for a disc whose edge is held horizontally.
+void check_loads(const Parameters& p, const Require& require) {
+    const Loads loads = loads_of(p);
+    if (loads.none()) return;
+    require(p.domain.kind == DomainKind::box,
+            "membrane.rim_tension, membrane.pole_force and fluid.pressure_difference need domain.kind = \"box\"");
+    require(
+        p.membrane.inextensible,
+        "membrane.rim_tension, membrane.pole_force and fluid.pressure_difference need membrane.inextensible = true");
+    require(p.fluid.dynamics == Dynamics::flow,
+            "membrane.rim_tension, membrane.pole_force and fluid.pressure_difference need fluid.dynamics = \"flow\"");
+    constexpr double first_zero = 3.8317059702075125;
+    const double stiffness = BendingModel(p.membrane).stiffness(0).value;
+    const double buckling = -stiffness * std::pow(first_zero / p.domain.radius, 2);
+    require(loads.rim_tension > buckling,
+            fmt::format("membrane.rim_tension = {:g} pN/nm is not above {:.4g} pN/nm, where the flat membrane buckles",
+                        loads.rim_tension, buckling));
+}
+
+void check_times(const Parameters& p, const Require& require) {
+    require(p.time.initial_step <= p.time.max_step,
+            fmt::format("time.initial_step = {} µs must not exceed time.max_step = {} µs", p.time.initial_step,
+                        p.time.max_step));
+    const auto check_interval = [&](const char* name, double interval) {
+        require(p.time.end <= most_outputs * interval,
+                fmt::format("output.{} = {} µs gives more than {} files or shapes until time.end = {} µs; enlarge it",
+                            name, interval, most_outputs, p.time.end));
+    };
+    check_interval("shape_interval", p.output.shape_interval);
+    if (p.output.field_interval > 0) check_interval("field_interval", p.output.field_interval);
+}
+
+}  // namespace
+
+void check_case(const Parameters& p, const std::string& where) {
+    const Require require = [&](bool holds, const std::string& message) {
+        if (!holds) throw InputError(where + ": " + message);
+    };
+    if (p.domain.kind == DomainKind::box) check_box(p, require);
+    check_loads(p, require);
+    check_times(p, require);
+}
+
+}  // namespace endoflow
