@@ -74,6 +74,25 @@ class Pages(unittest.TestCase):
         self.assertEqual([name for name in cases if f"`{name}`" not in text], [])
 
     @unittest.skipUnless(PROGRAM and Path(PROGRAM).exists(), "ENDOFLOW_PROGRAM names no program")
+    def test_named_keys_exist(self):
+        """A parameter that a page names is one; what is planned stands on a page of its own."""
+        text = subprocess.run([PROGRAM, "params", "--toml"], check=True, capture_output=True, text=True).stdout
+        known, section = set(), ""
+        for line in text.splitlines():
+            if head := re.match(r"\[([\w.]+)\]", line):
+                section = head[1]
+            elif key := re.match(r"#? ?(\w+) = ", line):
+                known.add(f"{section}.{key[1]}")
+        sections = "|".join(sorted({name.rsplit(".", 1)[0] for name in known}, key=len, reverse=True))
+        missing = []
+        for page in (locations.ROOT / "README.md", *pages()):
+            if page.name != "roadmap.md":
+                for name in re.findall(rf"`((?:{sections})\.[a-z_.]+)\b", page.read_text(encoding="utf-8")):
+                    missing += [f"{page.name}: {name}"] if name not in known else []
+        self.assertGreater(len(known), 60)
+        self.assertEqual(missing, [])
+
+    @unittest.skipUnless(PROGRAM and Path(PROGRAM).exists(), "ENDOFLOW_PROGRAM names no program")
     def test_every_command_parses(self):
         process = subprocess.run(
             [sys.executable, str(TOOLS / "check.py"), str(Path(PROGRAM).parent), "--parse"],
@@ -170,6 +189,8 @@ class Checker(unittest.TestCase):
             with self.subTest(text):
                 found = check.parse(Block(here, "sh", "", text), build)
                 self.assertIn(problem, found) if problem else self.assertEqual(found, "")
+        self.assertEqual(check.check_case(Block(here, "toml", "", "[time]\nend = 2\n"), build), "")
+        self.assertIn("did you mean", check.check_case(Block(here, "toml", "", "[time]\nendd = 2\n"), build))
 
 
 class Results(unittest.TestCase):

@@ -80,6 +80,15 @@ def parse(block, build):
     return ""
 
 
+def check_case(block, build):
+    """What `endoflow check` says against a block in TOML, a case or a part of one; "" when nothing."""
+    with tempfile.TemporaryDirectory() as scratch:
+        case = Path(scratch) / "case.toml"
+        case.write_text(block.text, encoding="utf-8")
+        command = [str(build / "endoflow"), "check", str(case)]
+        return subprocess.run(command, env=environment(build), capture_output=True, text=True, check=False).stderr
+
+
 def unknown_options(words, build):
     """What `endoflow` would not understand in the words behind it; "" when nothing."""
     if not words or words[0].startswith("-"):
@@ -114,11 +123,10 @@ def main(arguments):
             for block in blocks(page):
                 if block.mark.startswith("file: "):
                     (Path(scratch) / block.mark.removeprefix("file: ")).write_text(block.text, encoding="utf-8")
+                if block.kind not in ("sh", "python", "toml"):
                     continue
-                if block.kind not in ("sh", "python"):
-                    continue
-                only_parsed = parse_only or block.mark.startswith("parse only")
-                problem = parse(block, build) if block.kind == "sh" else ""
+                only_parsed = parse_only or block.kind == "toml" or block.mark.startswith("parse only")
+                problem = {"sh": parse, "toml": check_case}[block.kind](block, build) if block.kind != "python" else ""
                 problem = problem or ("" if only_parsed else run(block, scratch, build))
                 counts["parsed" if only_parsed else "run"] += 1
                 if problem:
