@@ -13,6 +13,7 @@ sys.path.insert(0, str(ROOT / "tools" / "architecture"))
 
 import check  # noqa: E402
 import folders  # noqa: E402
+import picture  # noqa: E402
 import sources  # noqa: E402
 
 #: Promises that are not kept yet.
@@ -36,6 +37,16 @@ class Tree(unittest.TestCase):
 class Project(unittest.TestCase):
     def test_promises(self):
         self.assertEqual([line for line in check.problems() if not line.startswith(OPEN)], [])
+
+
+class Picture(unittest.TestCase):
+    def test_rows(self):
+        graph = {"a": {"b", "c"}, "b": {"d"}, "c": {"d"}}
+        self.assertEqual(picture.rows_of(["a", "b", "c", "d", "e"], graph), [["a"], ["b", "c"], ["d", "e"]])
+
+    def test_what_is_used_directly(self):
+        graph = {"a": {"b", "c"}, "b": {"c"}}
+        self.assertEqual(picture.direct(["a", "b", "c"], graph), [("a", "b"), ("b", "c")])
 
 
 class Circles(Tree):
