@@ -38,7 +38,6 @@ EngineIdentity identity(const Parameters& parameters) {
         {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
         {"sundials", SUNDIALS_VERSION}};
     identity.history_columns = own_history_columns();
-    identity.kept_parameters = {"domain.kind", "domain.radius", "domain.membrane_height", "boundary_integral.elements"};
     return identity;
 }
 

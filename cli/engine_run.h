@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <exception>
 
 #include "command_line.h"
@@ -13,6 +15,11 @@ namespace endoflow::cli {
 /// Returns the exit code; exceptions pass on.
 template <class Simulation>
 [[nodiscard]] int run_to_the_end(RunOutput& output, const Simulation& simulate) {
+    if (output.nothing_to_do()) {
+        fmt::print("already at t = {:.6g} µs, nothing to do; results in {}\n", output.reached_us(),
+                   output.directory().string());
+        return 0;
+    }
     try {
         const ExitReason reason = simulate();
         output.finish(reason);

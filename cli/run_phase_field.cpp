@@ -18,7 +18,8 @@ namespace endoflow::cli {
 
 namespace {
 
-/// The first process opens the directory; the others follow when that went well.
+/// The first process opens the directory; the others follow when that went well, and get nothing when there is nothing
+/// to do.
 std::unique_ptr<RunOutput> open_output(const RunRequest& request, int rank, int processes) {
     const StartMode mode = request.restart ? StartMode::restart : StartMode::fresh;
     const auto open = [&](OutputRole role) {
@@ -34,11 +35,13 @@ std::unique_ptr<RunOutput> open_output(const RunRequest& request, int rank, int 
             failure = std::current_exception();
         }
     }
-    int failed = failure ? 1 : 0;
-    MPI_Bcast(&failed, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    enum { opened, nothing_to_do, failed };
+    int outcome = failure ? failed : output && output->nothing_to_do() ? nothing_to_do : opened;
+    MPI_Bcast(&outcome, 1, MPI_INT, 0, MPI_COMM_WORLD);
     if (failure) std::rethrow_exception(failure);
-    if (failed != 0) throw IoError("the first process could not open the run's directory");
-    return output ? std::move(output) : open(OutputRole::observer);
+    if (outcome == failed) throw IoError("the first process could not open the run's directory");
+    if (rank != 0 && outcome == opened) return open(OutputRole::observer);
+    return output;
 }
 
 int run(int argc, char** argv, int rank, int processes) {
@@ -47,6 +50,7 @@ int run(int argc, char** argv, int rank, int processes) {
     require_no_loads(request->parameters, "phase-field");
     install_signal_handlers();
     const auto output = open_output(*request, rank, processes);
+    if (!output) return 0;
     return run_to_the_end(*output, [&] { return phasefield::simulate(request->parameters, *output, MPI_COMM_WORLD); });
 }
 

@@ -2,6 +2,7 @@
 
 #include "command_line.h"
 #include "engine_run.h"
+#include "launcher.h"
 #include "shared/case/case_file.h"
 #include "shared/output/run_output.h"
 #include "shared/support/interruption.h"
@@ -30,6 +31,7 @@ int run(int argc, char** argv) {
                  "the molecules' mass is π patch_radius², not that of the initial profile, which is a little larger");
     app.add_option("--family", family, "of a vesicle: prolate, oblate or stomatocyte [as the case's spheroid is]");
     if (!parse(app, argc, argv)) return 0;
+    require_one_process("endoflow statics", "");
     if (!family.empty()) request.family = statics::parse_family(family);
     const Parameters parameters = read_case(case_file, overrides);
     statics::require_stationary_model(parameters, request);

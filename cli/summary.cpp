@@ -52,6 +52,11 @@ std::string last_row(const std::filesystem::path& file) {
     return text;
 }
 
+/// How far the quantity of an alarm went in the whole run.
+double largest(const Json& record, const Json& alarm) {
+    return record.at("accuracy").at(alarm.at("name").get<std::string>()).at("largest").get<double>();
+}
+
 std::string describe(const Json& record, const std::filesystem::path& directory) {
     const auto& steps = record.at("steps");
     const auto& reason = record.at("exit_reason");
@@ -68,6 +73,11 @@ std::string describe(const Json& record, const std::filesystem::path& directory)
                         record.at("provenance").at("git").get<std::string>());
     for (const auto& [name, event] : record.at("events").items())
         text += fmt::format("  event: {} at t = {:.8g} µs\n", name, event.at("time_us").get<double>());
+    for (const auto& alarm : record.value("alarms", Json::array()))
+        text += fmt::format("  alarm: {} at t = {:.4g} µs: {}: {:.2g}, allowed {:g}; {}\n",
+                            alarm.at("name").get<std::string>(), alarm.at("time_us").get<double>(),
+                            alarm.at("meaning").get<std::string>(), largest(record, alarm),
+                            alarm.at("bound").get<double>(), alarm.at("remedy").get<std::string>());
     return text;
 }
 

@@ -78,10 +78,7 @@ EngineIdentity identity(int processes) {
             extra_history_columns(),
             processes,
             1,
-            RowOrder::in_time,
-            {"domain.radius", "domain.height", "domain.membrane_height", "phase_field.scheme", "phase_field.epsilon",
-             "phase_field.cell_size", "phase_field.far_refinements", "phase_field.degree",
-             "phase_field.velocity_degree", "phase_field.tension_degree", "phase_field.surface_degree"}};
+            RowOrder::in_time};
 }
 
 }  // namespace endoflow::phasefield

@@ -17,7 +17,8 @@ namespace {
 constexpr std::uintmax_t largest_history = std::uintmax_t{1} << 32;
 
 std::string header(const std::vector<std::string>& extra_columns) {
-    std::string text = fmt::format("{}", fmt::join(common_history_columns(), ","));
+    std::string text;
+    for (const auto& column : common_history_columns()) text += (text.empty() ? "" : ",") + column.name;
     for (const auto& name : extra_columns) text += "," + name;
     return text;
 }
@@ -50,30 +51,14 @@ std::optional<double> time_of_row(const std::string& line, std::ptrdiff_t cells)
 
 }  // namespace
 
-const std::vector<std::string>& common_history_columns() {
-    static const std::vector<std::string> names{"time_us",
-                                                "step_us",
-                                                "neck_radius_nm",
-                                                "bud_diameter_nm",
-                                                "bud_height_nm",
-                                                "membrane_area_nm2",
-                                                "bending_energy_pN_nm",
-                                                "molecule_mass_nm2",
-                                                "area_strain_max",
-                                                "volume_extracellular_nm3",
-                                                "wall_s"};
-    return names;
-}
-
 HistoryFile::HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns)
     : path_(file), extra_columns_(extra_columns.size()) {
     write_file_atomically(file, header(extra_columns) + "\n");
     stream_.open(file, std::ios::app);
 }
 
-HistoryFile::HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns,
-                         double last_time_us, std::optional<long> expected_rows)
-    : path_(file), extra_columns_(extra_columns.size()) {
+KeptHistory read_kept_history(const std::filesystem::path& file, const std::vector<std::string>& extra_columns,
+                              double last_time_us, std::optional<long> expected_rows) {
     const std::string content = read_file(file, largest_history);
     if (content.substr(0, content.find('\n')) != header(extra_columns))
         throw IoError(file.string() + ": its columns are not those of this engine; run without --restart");
@@ -81,40 +66,39 @@ HistoryFile::HistoryFile(const std::filesystem::path& file, const std::vector<st
     std::string line;
     std::getline(lines, line);
     const std::ptrdiff_t cells = std::count(line.begin(), line.end(), ',') + 1;
-    std::string kept = line + "\n";
+    KeptHistory kept;
+    kept.text = line + "\n";
     while (std::getline(lines, line) && !lines.eof()) {  // at the end of the file: a row without its end
         const auto time = time_of_row(line, cells);
         if (!time) break;
+        kept.reached = *time;
         if (!not_later(*time, last_time_us)) continue;
-        kept += line + "\n";
-        times_.push_back(*time);
+        kept.text += line + "\n";
+        kept.times.push_back(*time);
     }
-    if (expected_rows && rows() != *expected_rows)
+    if (const auto rows = static_cast<long>(kept.times.size()); expected_rows && rows != *expected_rows)
         throw IoError(
             fmt::format("{}: {} intact rows up to t = {} µs, but the run had written {} when it made its "
                         "checkpoint; restore the file or run without --restart",
-                        file.string(), rows(), last_time_us, *expected_rows));
-    write_file_atomically(file, kept);
+                        file.string(), rows, last_time_us, *expected_rows));
+    return kept;
+}
+
+HistoryFile::HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns,
+                         KeptHistory kept)
+    : path_(file), extra_columns_(extra_columns.size()), times_(std::move(kept.times)) {
+    write_file_atomically(file, kept.text);
     stream_.open(file, std::ios::app);
 }
 
 void HistoryFile::append(const HistoryRow& row) {
     if (row.extra.size() != extra_columns_)
         throw std::logic_error("a history row must have one value for each of the engine's own columns");
-    const auto& names = common_history_columns();
-    const auto optional = [&](const std::optional<double>& value, const std::string& name) {
-        return value ? number(*value, name) : std::string();
-    };
-    std::string line = number(row.time_us, names[0]) + "," + number(row.step_us, names[1]) + "," +
-                       optional(row.neck_radius_nm, names[2]) + "," + optional(row.bud_diameter_nm, names[3]);
-    const double rest[] = {row.bud_height_nm,
-                           row.membrane_area_nm2,
-                           row.bending_energy_pN_nm,
-                           row.molecule_mass_nm2,
-                           row.area_strain_max,
-                           row.volume_extracellular_nm3,
-                           row.wall_s};
-    for (std::size_t i = 0; i < std::size(rest); ++i) line += "," + number(rest[i], names[4 + i]);
+    std::string line;
+    for (const auto& column : common_history_columns()) {
+        if (!line.empty()) line += ",";
+        if (const auto value = column.value_in(row)) line += number(*value, column.name);
+    }
     for (const double value : row.extra) line += "," + number(value, "a column of history.csv");
     stream_ << line << '\n' << std::flush;
     if (!stream_) throw IoError(path_.string() + ": a row cannot be written; check the disk's space and permissions");

@@ -6,26 +6,22 @@
 #include <string>
 #include <vector>
 
+#include "shared/output/history_columns.h"
+
 namespace endoflow {
 
-/// One accepted time step. Values that do not exist (no neck) stay empty.
-struct HistoryRow {
-    double time_us = 0;
-    double step_us = 0;
-    std::optional<double> neck_radius_nm;
-    std::optional<double> bud_diameter_nm;
-    double bud_height_nm = 0;
-    double membrane_area_nm2 = 0;
-    double bending_energy_pN_nm = 0;
-    double molecule_mass_nm2 = 0;
-    double area_strain_max = 0;
-    double volume_extracellular_nm3 = 0;
-    double wall_s = 0;
-    std::vector<double> extra;  // the engine's own columns, in the order it named them
+/// What a restart keeps of a history.csv: the rows up to its time and up to the first torn or damaged one.
+struct KeptHistory {
+    std::string text;           // the header and the rows
+    std::vector<double> times;  // of the rows, µs
+    double reached = 0;         // time of the last intact row in the file, kept or not, µs
 };
 
-/// Names of the columns all engines share, in file order.
-[[nodiscard]] const std::vector<std::string>& common_history_columns();
+/// Reads what a restart from `last_time_us` keeps and changes nothing. Throws IoError when the columns differ or the
+/// rows are not `expected_rows` in number.
+[[nodiscard]] KeptHistory read_kept_history(const std::filesystem::path& file,
+                                            const std::vector<std::string>& extra_columns, double last_time_us,
+                                            std::optional<long> expected_rows = {});
 
 /// history.csv: one line per accepted step, on the disk before the next step begins.
 class HistoryFile {
@@ -33,10 +29,8 @@ class HistoryFile {
     /// Starts a new file. Throws IoError.
     HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns);
 
-    /// Continues an existing file: its rows up to `last_time_us` and up to the first torn or damaged one, no others.
-    /// Throws IoError, and leaves the file alone, when the columns differ or these are not `expected_rows` rows.
-    HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns, double last_time_us,
-                std::optional<long> expected_rows = {});
+    /// Continues an existing file, of which only this is kept. Throws IoError.
+    HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns, KeptHistory kept);
 
     /// Throws IoError when the row cannot be written, SolverError when a value is not finite.
     void append(const HistoryRow& row);

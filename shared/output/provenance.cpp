@@ -16,11 +16,6 @@ namespace endoflow {
 
 namespace {
 
-std::string host_name() {
-    std::array<char, 256> name{};
-    return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
-}
-
 std::string processor_name() {
     std::ifstream info("/proc/cpuinfo");
     for (std::string line; std::getline(info, line);)
@@ -35,6 +30,11 @@ std::string hdf5_version() {
 }
 
 }  // namespace
+
+std::string host_name() {
+    std::array<char, 256> name{};
+    return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
 
 nlohmann::ordered_json provenance(const LibraryVersions& engine_libraries) {
     LibraryVersions libraries = engine_libraries;

@@ -12,6 +12,9 @@ using LibraryVersions = std::map<std::string, std::string>;
 /// Program version, git description, library versions, host, cores, processor: where and with what a run was made.
 [[nodiscard]] nlohmann::ordered_json provenance(const LibraryVersions& engine_libraries);
 
+/// The name of the machine this process runs on.
+[[nodiscard]] std::string host_name();
+
 /// The present as "2026-01-31T12:34:56Z".
 [[nodiscard]] std::string utc_now();
 

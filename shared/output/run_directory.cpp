@@ -26,8 +26,11 @@ fs::path unused_number(const fs::path& directory) {
 
 }  // namespace
 
-void RunDirectory::prepare_fresh() const {
+void RunDirectory::make_root() const {
     make_directory(root);
+}
+
+void RunDirectory::prepare_fresh() const {
     if (fs::exists(record())) {
         const auto destination = unused_number(earlier());
         make_directory(destination);
@@ -47,7 +50,7 @@ void RunDirectory::require_run() const {
     std::error_code ignored;
     if (!fs::exists(record(), ignored))
         throw IoError(root.string() + ": holds no run to continue (no run.json); run without --restart");
-    make_directory(checkpoint());
+    make_directory(root);
 }
 
 }  // namespace endoflow

@@ -17,8 +17,11 @@ struct RunDirectory {
     [[nodiscard]] std::filesystem::path fields() const { return root / "fields"; }
     [[nodiscard]] std::filesystem::path field_index() const { return root / "fields.pvd"; }
     [[nodiscard]] std::filesystem::path earlier() const { return root / "earlier"; }
+    [[nodiscard]] std::filesystem::path lock() const { return root / "lock"; }
 
-    /// Makes root and checkpoint/; moves a run that is already there to earlier/N/. Throws IoError.
+    /// Makes root if it is not there. Throws IoError when it cannot be written.
+    void make_root() const;
+    /// Makes checkpoint/; moves a run that is already there to earlier/N/. Throws IoError.
     void prepare_fresh() const;
     /// Throws IoError unless root holds a run that can be continued.
     void require_run() const;

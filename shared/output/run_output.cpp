@@ -10,19 +10,20 @@
 
 #include "shared/output/atomic_file.h"
 #include "shared/output/live_line.h"
+#include "shared/output/output_times.h"
 #include "shared/output/run_directory.h"
+#include "shared/output/run_lock.h"
 #include "shared/output/shapes_file.h"
-#include "shared/parameters/parameter_rendering.h"
 #include "shared/support/error.h"
 
 namespace endoflow {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* record_in_checkpoint = "run_record";
 constexpr const char* rows_in_checkpoint = "history_rows";
+constexpr const char* shapes_in_checkpoint = "shapes";
+constexpr std::uintmax_t largest_record = std::uintmax_t{1} << 26;
 
 double wall_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -38,49 +39,6 @@ std::shared_ptr<spdlog::logger> open_log(const std::filesystem::path& file) {
     } catch (const spdlog::spdlog_ex& failure) {
         throw IoError(fmt::format("{}: cannot be written: {}", file.string(), failure.what()));
     }
-}
-
-Json initial_record(const Parameters& parameters, const EngineIdentity& engine) {
-    Json record;
-    record["format"] = "endoflow run";
-    record["format_version"] = 1;
-    record["engine"] = engine.name;
-    record["state"] = "running";
-    record["exit_reason"] = nullptr;
-    record["parameters"] = parameters_to_json(parameters);
-    record["provenance"] = provenance(engine.libraries);
-    record["processes"] = engine.processes;
-    record["threads"] = engine.threads;
-    record["started"] = utc_now();
-    record["ended"] = nullptr;
-    record["restarts"] = 0;
-    record["time_us"] = 0.0;
-    record["steps"] = {{"accepted", 0}, {"rejected", 0}};
-    record["wall_s"] = 0.0;
-    record["cpu_s"] = 0.0;
-    record["phases"] = Json::object();
-    record["events"] = Json::object();
-    record["notes"] = Json::object();
-    return record;
-}
-
-Json parse_record(const std::string& text, const std::string& source) {
-    try {
-        Json record = Json::parse(text);
-        if (record.at("format") != "endoflow run") throw IoError(source + ": not a run record of endoflow");
-        return record;
-    } catch (const Json::exception& failure) {
-        throw IoError(fmt::format("{}: damaged run record: {}", source, failure.what()));
-    }
-}
-
-void require_same(const std::string& key, const Json& before, const Json& now) {
-    const auto dot = key.find('.');
-    const std::string section = key.substr(0, dot), name = key.substr(dot + 1);
-    const Json &old_value = before.at(section).at(name), &new_value = now.at(section).at(name);
-    if (old_value != new_value)
-        throw InputError(fmt::format("{} = {}: the run to continue has {}, which a restart cannot change", key,
-                                     new_value.dump(), old_value.dump()));
 }
 
 }  // namespace
@@ -105,7 +63,13 @@ struct RunOutput::Implementation {
     EngineIdentity engine;
     OutputRole role;
     std::optional<Checkpoint> restart_point;
-    Json record;
+    std::unique_ptr<RunLock> lock;
+    RunRecord record;
+    KeptHistory kept_history;
+    std::filesystem::path kept_shapes;
+    double reached = 0;  // µs
+    bool nothing_to_do = false;
+    std::optional<AccuracyWatch> accuracy;
     double wall_start = wall_seconds();
     double wall_before = 0;  // s, of the parts of this run before a restart
     double cpu_before = 0;
@@ -117,57 +81,134 @@ struct RunOutput::Implementation {
     std::unique_ptr<LiveLine> live_line;
 
     void start_fresh() {
+        directory.make_root();
+        lock = std::make_unique<RunLock>(directory);
         directory.prepare_fresh();
-        record = initial_record(parameters, engine);
+        record = new_record(parameters, engine);
         history = std::make_unique<HistoryFile>(directory.history(), engine.history_columns);
         shapes = std::make_unique<ShapesFile>(directory.shapes());
     }
 
     void read_restart_point() {
-        directory.require_run();
         restart_point = read_checkpoint_file(directory.checkpoint());
         if (!restart_point)
             throw IoError(directory.checkpoint().string() + ": holds no checkpoint; run without --restart");
+        record = parse_record(restart_point->text(record_in_checkpoint), directory.checkpoint().string());
+    }
+
+    /// Everything that can be wrong with a restart is found here, and nothing is changed.
+    void prepare_restart() {
+        directory.require_run();
+        lock = std::make_unique<RunLock>(directory);
+        read_restart_point();
+        require_same_problem();
+        kept_history = read_kept_history(directory.history(), engine.history_columns, restart_point->time_us,
+                                         expected(rows_in_checkpoint));
+        kept_shapes = choose_shapes();
+        reached = std::max(restart_point->time_us, kept_history.reached);
+        nothing_to_do = has_reached(parameters.time.end);
+    }
+
+    void require_same_problem() const {
+        try {
+            require_continuable(record, parameters, engine, directory.root.string());
+        } catch (const RunRecord::exception& failure) {
+            throw incomplete(failure);
+        }
+    }
+
+    [[nodiscard]] IoError incomplete(const RunRecord::exception& failure) const {
+        return IoError(fmt::format("{}: not a complete run record: {}; run without --restart",
+                                   directory.checkpoint().string(), failure.what()));
+    }
+
+    [[nodiscard]] std::optional<long> expected(const char* count) const {
+        if (!restart_point->scalars.contains(count)) return std::nullopt;
+        return std::lround(restart_point->scalar(count));
+    }
+
+    /// A run that was killed may have written the row of its end, but not yet its last shape.
+    [[nodiscard]] bool has_reached(double end) const {
+        if (end <= restart_point->time_us * (1 + same_time)) return true;
+        const bool complete = ended_in_order(last_words());
+        return complete ? end <= reached * (1 + same_time) : end < reached * (1 - same_time);
+    }
+
+    /// run.json is newer than the record in the checkpoint, but need not be whole.
+    [[nodiscard]] RunRecord last_words() const {
+        try {
+            return parse_record(read_file(directory.record(), largest_record), directory.record().string());
+        } catch (const IoError&) {
+            return record;
+        }
+    }
+
+    /// The file with all shapes up to the checkpoint. A run that was killed may leave a shapes.h5 that was being
+    /// written; the copy beside the checkpoint is whole, unless the disk damaged it.
+    [[nodiscard]] std::filesystem::path choose_shapes() const {
+        std::optional<IoError> failure;
+        for (const auto& file : {directory.shapes_at_checkpoint(), directory.shapes()}) {
+            try {
+                const int count = count_shapes(file, restart_point->time_us);
+                if (const auto wanted = expected(shapes_in_checkpoint); !wanted || count == *wanted) return file;
+                if (!failure)
+                    failure.emplace(fmt::format("{}: holds {} shapes up to t = {} µs, not all of the run",
+                                                file.string(), count, restart_point->time_us));
+            } catch (const IoError& error) {
+                if (!failure) failure = error;
+            }
+        }
+        throw IoError(
+            fmt::format("{}; {} does not have all shapes either; restore one of them or run without "
+                        "--restart",
+                        failure->what(), directory.shapes().string()));
     }
 
     void continue_run() {
-        record = parse_record(restart_point->text(record_in_checkpoint), directory.checkpoint().string());
         try {
-            take_over_record();
-        } catch (const Json::exception& failure) {
-            throw IoError(fmt::format("{}: not a complete run record: {}; run without --restart",
-                                      directory.checkpoint().string(), failure.what()));
+            record["restarts"] = record.at("restarts").get<int>() + 1;
+            wall_before = record.at("wall_s").get<double>();
+            cpu_before = record.at("cpu_s").get<double>();
+            begin_segment(record, parameters, engine, restart_point->time_us);
+        } catch (const RunRecord::exception& failure) {
+            throw incomplete(failure);
         }
-        continue_history();
-        continue_shapes();
-    }
-
-    void take_over_record() {
-        if (record.at("engine") != engine.name)
-            throw IoError(fmt::format("{}: was written by the {} engine, not by {}; run without --restart",
-                                      directory.root.string(), record["engine"].get<std::string>(), engine.name));
-        const Json now = parameters_to_json(parameters);
-        for (const auto& key : engine.kept_parameters) require_same(key, record.at("parameters"), now);
-        record["parameters"] = now;
-        record["restarts"] = record.at("restarts").get<int>() + 1;
-        wall_before = record.at("wall_s").get<double>();
-        cpu_before = record.at("cpu_s").get<double>();
-    }
-
-    void continue_history() {
-        std::optional<long> expected_rows;
-        if (restart_point->scalars.contains(rows_in_checkpoint))
-            expected_rows = std::lround(restart_point->scalar(rows_in_checkpoint));
-        history = std::make_unique<HistoryFile>(directory.history(), engine.history_columns, restart_point->time_us,
-                                                expected_rows);
+        history = std::make_unique<HistoryFile>(directory.history(), engine.history_columns, std::move(kept_history));
         record["steps"]["accepted"] = history->rows();
+        if (kept_shapes != directory.shapes()) copy_file_atomically(kept_shapes, directory.shapes());
+        shapes = std::make_unique<ShapesFile>(directory.shapes(), restart_point->time_us);
     }
 
-    /// A run that was killed may leave a shapes.h5 that was being written; the copy beside the checkpoint is whole.
-    void continue_shapes() {
-        if (std::filesystem::exists(directory.shapes_at_checkpoint()))
-            copy_file_atomically(directory.shapes_at_checkpoint(), directory.shapes());
-        shapes = std::make_unique<ShapesFile>(directory.shapes(), restart_point->time_us);
+    void observe(StartMode mode) {
+        if (mode == StartMode::restart)
+            read_restart_point();
+        else
+            record = new_record(parameters, engine);
+    }
+
+    void open() {
+        const double start = restart_point ? restart_point->time_us : 0;
+        live_line = std::make_unique<LiveLine>(stdout, start, parameters.time.end);
+        log = open_log(directory.log());
+        log->info("{} engine, case '{}', {} at t = {} µs", engine.name, parameters.case_.name,
+                  restart_point ? "continued" : "started", start);
+        if (restart_point && kept_shapes == directory.shapes())
+            warn(fmt::format("{}: is damaged; the shapes come from {}", directory.shapes_at_checkpoint().string(),
+                             directory.shapes().string()));
+        if (!lock->doubt().empty()) warn(lock->doubt());
+        save_record();
+    }
+
+    void warn(const std::string& message) {
+        log->warn(message);
+        live_line->finish();
+        fmt::print(stderr, "warning: {}\n", message);
+    }
+
+    void raise(const Alarm& alarm) {
+        if (role == OutputRole::observer) return;
+        warn(alarm.describe());
+        save_record();
     }
 
     /// Before the checkpoint itself, so that history and shapes always reach as far as it does.
@@ -198,29 +239,22 @@ struct RunOutput::Implementation {
 
 RunOutput::RunOutput(const Parameters& parameters, EngineIdentity engine, std::filesystem::path directory,
                      StartMode mode, OutputRole role)
-    : implementation_(new Implementation{.directory = {std::move(directory)},
-                                         .parameters = parameters,
-                                         .engine = std::move(engine),
-                                         .role = role,
-                                         .restart_point = {},
-                                         .record = {},
-                                         .log = {},
-                                         .history = {},
-                                         .shapes = {},
-                                         .live_line = {}}) {
+    : implementation_(std::make_unique<Implementation>()) {
     auto& self = *implementation_;
-    if (mode == StartMode::restart) self.read_restart_point();
-    if (role == OutputRole::observer) return;
-    if (mode == StartMode::restart)
-        self.continue_run();
-    else
+    self.directory = {std::move(directory)};
+    self.parameters = parameters;
+    self.engine = std::move(engine);
+    self.role = role;
+    self.accuracy.emplace(parameters, self.engine);
+    if (role == OutputRole::observer)
+        self.observe(mode);
+    else if (mode == StartMode::fresh)
         self.start_fresh();
-    const double start = self.restart_point ? self.restart_point->time_us : 0;
-    self.live_line = std::make_unique<LiveLine>(stdout, start, parameters.time.end);
-    self.log = open_log(self.directory.log());
-    self.log->info("{} engine, case '{}', {} at t = {} µs", self.engine.name, parameters.case_.name,
-                   mode == StartMode::fresh ? "started" : "continued", start);
-    self.save_record();
+    else
+        self.prepare_restart();
+    if (role == OutputRole::observer || self.nothing_to_do) return;
+    if (mode == StartMode::restart) self.continue_run();
+    self.open();
 }
 
 RunOutput::~RunOutput() = default;
@@ -233,14 +267,29 @@ const std::optional<Checkpoint>& RunOutput::restart_point() const {
     return implementation_->restart_point;
 }
 
+bool RunOutput::nothing_to_do() const {
+    return implementation_->nothing_to_do;
+}
+
+double RunOutput::reached_us() const {
+    return implementation_->reached;
+}
+
 void RunOutput::record_step(HistoryRow row) {
-    if (implementation_->role == OutputRole::observer) return;
     auto& self = *implementation_;
-    row.wall_s = self.wall();
-    self.history->append(row);
-    self.record["time_us"] = row.time_us;
-    self.record["steps"]["accepted"] = self.record["steps"]["accepted"].get<long>() + 1;
-    if (self.engine.row_order == RowOrder::in_time) self.live_line->update(row);
+    if (self.role == OutputRole::owner) {
+        row.wall_s = self.wall();
+        self.history->append(row);
+        self.record["time_us"] = row.time_us;
+        self.record["steps"]["accepted"] = self.record["steps"]["accepted"].get<long>() + 1;
+        if (self.engine.row_order == RowOrder::in_time) self.live_line->update(row);
+    }
+    for (const Alarm& alarm : self.accuracy->look_at(row, self.record)) self.raise(alarm);
+}
+
+void RunOutput::watch(const AccuracyBound& bound, double time_us, double value) {
+    if (const auto alarm = AccuracyWatch::look_at(bound, time_us, value, implementation_->record))
+        implementation_->raise(*alarm);
 }
 
 void RunOutput::count_rejected_step() {
@@ -258,7 +307,7 @@ void RunOutput::record_event(const std::string& name, double time_us, const std:
     if (implementation_->role == OutputRole::observer) return;
     auto& self = *implementation_;
     if (self.record["events"].contains(name)) return;
-    Json event = {{"time_us", time_us}};
+    RunRecord event = {{"time_us", time_us}};
     for (const auto& [key, value] : values) event[key] = value;
     self.record["events"][name] = event;
     self.live_line->finish();
@@ -267,7 +316,7 @@ void RunOutput::record_event(const std::string& name, double time_us, const std:
     self.save_record();
 }
 
-void RunOutput::note(const std::string& key, const Json& value) {
+void RunOutput::note(const std::string& key, const RunRecord& value) {
     if (implementation_->role == OutputRole::observer) return;
     implementation_->record["notes"][key] = value;
 }
@@ -287,9 +336,7 @@ void RunOutput::log_info(const std::string& message) {
 
 void RunOutput::log_warning(const std::string& message) {
     if (implementation_->role == OutputRole::observer) return;
-    implementation_->log->warn(message);
-    implementation_->live_line->finish();
-    fmt::print(stderr, "warning: {}\n", message);
+    implementation_->warn(message);
 }
 
 bool RunOutput::checkpoint_due() const {
@@ -303,6 +350,7 @@ void RunOutput::write_checkpoint(const Checkpoint& checkpoint) {
     self.save_series();
     Checkpoint complete = checkpoint;
     complete.scalars[rows_in_checkpoint] = static_cast<double>(self.history->rows_until(checkpoint.time_us));
+    complete.scalars[shapes_in_checkpoint] = self.shapes->count_until(checkpoint.time_us);
     complete.texts[record_in_checkpoint] = self.record.dump();
     write_checkpoint_file(self.directory.checkpoint(), complete);
     self.last_checkpoint = wall_seconds();

@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "shared/geometry/membrane_curve.h"
+#include "shared/output/accuracy.h"
 #include "shared/output/checkpoint.h"
 #include "shared/output/history_file.h"
-#include "shared/output/provenance.h"
+#include "shared/output/run_record.h"
 #include "shared/parameters/parameters.h"
 
 namespace endoflow {
@@ -21,21 +22,6 @@ enum class ExitReason { done, budded, neck_closed, interrupted };
 
 [[nodiscard]] std::string to_string(ExitReason reason);
 
-/// Whether the rows of history.csv follow each other in time, so that the live line can tell how far a run is.
-enum class RowOrder { in_time, along_a_branch };
-
-/// What an engine says of itself once.
-struct EngineIdentity {
-    std::string name;                          // "boundary-integral" or "phase-field"
-    LibraryVersions libraries;                 // what it is linked to
-    std::vector<std::string> history_columns;  // its own columns of history.csv, names ending in their unit
-    int processes = 1;
-    int threads = 1;
-    RowOrder row_order = RowOrder::in_time;
-    /// "section.key" of the parameters its checkpoints are made for: a restart cannot change them.
-    std::vector<std::string> kept_parameters = {};
-};
-
 enum class StartMode { fresh, restart };
 
 /// With several processes one owns the directory; the observers read the checkpoint and write nothing.
@@ -44,11 +30,13 @@ enum class OutputRole { owner, observer };
 /// The only door to a run's directory: run.json, history.csv, shapes.h5, checkpoint/, log.txt and the live line.
 /// Every process of a parallel run holds one; those of observers do nothing but hand out the checkpoint.
 ///
-/// A fresh start in a directory that already holds a run moves that run to earlier/N/ inside it: nothing is lost.
-/// A restart drops what was written after the checkpoint and goes on from there.
+/// The owner holds the directory's lock. A fresh start in a directory that already holds a run moves that run to
+/// earlier/N/ inside it: nothing is lost. A restart reads and checks all that it needs before it changes anything; then
+/// it drops what was written after the checkpoint and goes on from there.
 class RunOutput {
   public:
-    /// Creates the directory and its files, run.json with state "running". Throws IoError.
+    /// Creates the directory and its files, run.json with state "running". Throws IoError, and InputError for a restart
+    /// with another problem than the run's.
     RunOutput(const Parameters& parameters, EngineIdentity engine, std::filesystem::path directory, StartMode mode,
               OutputRole role = OutputRole::owner);
     ~RunOutput();
@@ -60,8 +48,17 @@ class RunOutput {
     /// The checkpoint to continue from: set in a restart, empty in a fresh run.
     [[nodiscard]] const std::optional<Checkpoint>& restart_point() const;
 
-    /// Appends to history.csv and moves the live line. wall_s is filled in here.
+    /// True when a restart is asked for no more than what the run has reached: nothing was touched, and nothing may be
+    /// called but directory() and reached_us().
+    [[nodiscard]] bool nothing_to_do() const;
+    /// The time up to which the run had got when this part of it began [µs].
+    [[nodiscard]] double reached_us() const;
+
+    /// Appends to history.csv and moves the live line. wall_s is filled in here. What leaves its bound of
+    /// accuracy_bounds() becomes an alarm; beyond its limit, SolverError is thrown, by all processes alike.
     void record_step(HistoryRow row);
+    /// The same bounds for a quantity that is in no column of the history.
+    void watch(const AccuracyBound& bound, double time_us, double value);
     void count_rejected_step();
 
     /// Appends to shapes.h5.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "shared/output/hdf5_file.h"
+#include "shared/output/output_times.h"
 #include "shared/support/error.h"
 #include "shared/support/version.h"
 
@@ -48,7 +49,23 @@ void require_finite(const MembraneCurve& curve) {
     }
 }
 
+bool later(double time, double last_time) {
+    return time > last_time * (1 + same_time);
+}
+
 }  // namespace
+
+int count_shapes(const std::filesystem::path& file, double last_time_us) {
+    const Hdf5File hdf5(file, Hdf5File::Mode::read);
+    int count = 0;
+    for (const auto& name : hdf5.members("/shapes")) {
+        const std::string group = "/shapes/" + name;
+        if (later(hdf5.read_number_attribute(group, "time"), last_time_us)) continue;
+        for (const auto& column : columns) (void)hdf5.read_array(group + "/" + column.name);
+        ++count;
+    }
+    return count;
+}
 
 ShapesFile::ShapesFile(const std::filesystem::path& file) : path_(file) {
     Hdf5File hdf5(file, Hdf5File::Mode::create);
@@ -63,10 +80,11 @@ ShapesFile::ShapesFile(const std::filesystem::path& file, double last_time_us) :
     Hdf5File hdf5(file, Hdf5File::Mode::extend);
     for (const auto& name : hdf5.members("/shapes")) {
         const std::string group = "/shapes/" + name;
-        if (hdf5.read_number_attribute(group, "time") > last_time_us * (1 + 1e-12))
+        const double time = hdf5.read_number_attribute(group, "time");
+        if (later(time, last_time_us))
             hdf5.remove(group);
         else
-            ++count_;
+            times_.push_back(time);
     }
     hdf5.flush();
 }
@@ -74,7 +92,7 @@ ShapesFile::ShapesFile(const std::filesystem::path& file, double last_time_us) :
 void ShapesFile::append(double time_us, const MembraneCurve& curve) {
     require_finite(curve);
     Hdf5File hdf5(path_, Hdf5File::Mode::extend);
-    const std::string group = group_name(count_);
+    const std::string group = group_name(count());
     hdf5.create_group(group);
     hdf5.write_attribute(group, "time", time_us);
     hdf5.write_attribute(group, "time_unit", "us");
@@ -85,7 +103,12 @@ void ShapesFile::append(double time_us, const MembraneCurve& curve) {
         hdf5.write_attribute(name, "meaning", column.meaning);
     }
     hdf5.flush();
-    ++count_;
+    times_.push_back(time_us);
+}
+
+int ShapesFile::count_until(double time_us) const {
+    return static_cast<int>(
+        std::count_if(times_.begin(), times_.end(), [&](double time) { return !later(time, time_us); }));
 }
 
 }  // namespace endoflow

@@ -6,6 +6,10 @@
 
 namespace endoflow {
 
+/// How many shapes not later than this a shapes.h5 holds, all of them read to the end; changes nothing. Throws IoError
+/// when one of them is damaged.
+[[nodiscard]] int count_shapes(const std::filesystem::path& file, double last_time_us);
+
 /// shapes.h5: /shapes/NNNNNN with s, r, z, c, lambda, kappa, u_r, u_z and the time as attribute, units as attributes.
 class ShapesFile {
   public:
@@ -18,11 +22,13 @@ class ShapesFile {
     /// Throws IoError when it cannot be written, SolverError when a value is not finite.
     void append(double time_us, const MembraneCurve& curve);
 
-    [[nodiscard]] int count() const { return count_; }
+    [[nodiscard]] int count() const { return static_cast<int>(times_.size()); }
+    /// How many shapes are not later than this.
+    [[nodiscard]] int count_until(double time_us) const;
 
   private:
     std::filesystem::path path_;
-    int count_ = 0;
+    std::vector<double> times_;  // of the shapes in the file, µs
 };
 
 }  // namespace endoflow

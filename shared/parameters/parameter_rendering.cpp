@@ -39,6 +39,7 @@ std::string annotation(const ParameterRow& row) {
     if (!row.symbol.empty()) text += " [" + row.symbol + "]";
     if (!row.unit.empty()) text += "; in " + row.unit;
     if (const auto range = allowed(row); !range.empty()) text += "; " + range;
+    if (row.free_on_restart) text += "; free at a restart";
     return text;
 }
 
@@ -68,11 +69,13 @@ std::string render_parameters_markdown() {
     for (const auto& row : parameter_table()) {
         if (row.section != section) {
             section = row.section;
-            text += fmt::format("\n## [{}]\n\n| key | default | unit | allowed | symbol | meaning |\n", section);
-            text += "| --- | --- | --- | --- | --- | --- |\n";
+            text +=
+                fmt::format("\n## [{}]\n\n| key | default | unit | allowed | symbol | meaning | restart |\n", section);
+            text += "| --- | --- | --- | --- | --- | --- | --- |\n";
         }
-        text += fmt::format("| `{}` | `{}` | {} | {} | {} | {} |\n", row.key, to_toml(row.default_value()), row.unit,
-                            cell(allowed(row)), cell(row.symbol), cell(row.meaning));
+        text +=
+            fmt::format("| `{}` | `{}` | {} | {} | {} | {} | {} |\n", row.key, to_toml(row.default_value()), row.unit,
+                        cell(allowed(row)), cell(row.symbol), cell(row.meaning), row.free_on_restart ? "free" : "");
     }
     return text;
 }

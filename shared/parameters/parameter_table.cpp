@@ -70,6 +70,12 @@ ParameterRow row(const char* section_name, const char* key, Section Parameters::
     return result;
 }
 
+/// A row of a parameter that a restart may change.
+ParameterRow free_on_restart(ParameterRow row) {
+    row.free_on_restart = true;
+    return row;
+}
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Bounds any() {
@@ -87,8 +93,9 @@ using P = Parameters;
 std::vector<ParameterRow> case_rows() {
     using S = CaseParameters;
     return {
-        row("case", "name", &P::case_, &S::name, "", any(), "", "short name used in plots and reports"),
-        row("case", "description", &P::case_, &S::description, "", any(), "", "what the case is for"),
+        free_on_restart(
+            row("case", "name", &P::case_, &S::name, "", any(), "", "short name used in plots and reports")),
+        free_on_restart(row("case", "description", &P::case_, &S::description, "", any(), "", "what the case is for")),
     };
 }
 
@@ -242,8 +249,8 @@ std::vector<ParameterRow> boundary_integral_rows() {
             "number of spline elements along the membrane"),
         row("boundary_integral", "quadrature_order", &P::boundary_integral, &S::quadrature_order, "", at_least(4, 20),
             "", "Gauss points per element"),
-        row("boundary_integral", "threads", &P::boundary_integral, &S::threads, "", at_least(0, 256), "",
-            "threads that share the work; 0 = one per core"),
+        free_on_restart(row("boundary_integral", "threads", &P::boundary_integral, &S::threads, "", at_least(0, 256),
+                            "", "threads that share the work; 0 = one per core")),
         row("boundary_integral", "mesh_curvature_length", &P::boundary_integral, &S::mesh_curvature_length, "nm",
             at_least(0, 1e3), "", "elements get short where the curvature exceeds the inverse of this"),
         row("boundary_integral", "mesh_edge_weight", &P::boundary_integral, &S::mesh_edge_weight, "", at_least(0, 20),
@@ -252,37 +259,40 @@ std::vector<ParameterRow> boundary_integral_rows() {
             "part of the mesh over which the element density is filtered, so that neighbours are similar"),
         row("boundary_integral", "mesh_relaxation_time", &P::boundary_integral, &S::mesh_relaxation_time, "µs",
             {1e-5, 1e3}, "", "time in which elements move to where they are wanted"),
-        row("boundary_integral", "restart_interval", &P::boundary_integral, &S::restart_interval, "", at_least(5, 1e6),
-            "", "time steps between points that a restart can go on from; the integrator starts anew at each of them"),
-        row("boundary_integral", "neck_closed_radius", &P::boundary_integral, &S::neck_closed_radius, "nm",
-            at_least(0, 10), "", "the run ends with neck_closed when the neck radius falls below this"),
-        row("boundary_integral", "field_spacing", &P::boundary_integral, &S::field_spacing, "nm", {0.1, 1e3}, "",
-            "distance of the points where fields are evaluated"),
+        free_on_restart(row(
+            "boundary_integral", "restart_interval", &P::boundary_integral, &S::restart_interval, "", at_least(5, 1e6),
+            "", "time steps between points that a restart can go on from; the integrator starts anew at each of them")),
+        free_on_restart(row("boundary_integral", "neck_closed_radius", &P::boundary_integral, &S::neck_closed_radius,
+                            "nm", at_least(0, 10), "",
+                            "the run ends with neck_closed when the neck radius falls below this")),
+        free_on_restart(row("boundary_integral", "field_spacing", &P::boundary_integral, &S::field_spacing, "nm",
+                            {0.1, 1e3}, "", "distance of the points where fields are evaluated")),
     };
 }
 
 std::vector<ParameterRow> time_rows() {
     using S = TimeParameters;
     return {
-        row("time", "end", &P::time, &S::end, "µs", at_least(0, 1e9), "T", "simulated time"),
-        row("time", "tolerance", &P::time, &S::tolerance, "", {1e-12, 0.1}, "",
-            "relative accuracy of the time steps where they are error-controlled"),
-        row("time", "initial_step", &P::time, &S::initial_step, "µs", {1e-12, 1e3}, "", "first time step"),
-        row("time", "max_step", &P::time, &S::max_step, "µs", positive(1e6), "", "largest time step"),
+        free_on_restart(row("time", "end", &P::time, &S::end, "µs", positive(1e9), "T", "simulated time")),
+        free_on_restart(row("time", "tolerance", &P::time, &S::tolerance, "", {1e-12, 0.1}, "",
+                            "relative accuracy of the time steps where they are error-controlled")),
+        free_on_restart(
+            row("time", "initial_step", &P::time, &S::initial_step, "µs", {1e-12, 1e3}, "", "first time step")),
+        free_on_restart(row("time", "max_step", &P::time, &S::max_step, "µs", positive(1e6), "", "largest time step")),
     };
 }
 
 std::vector<ParameterRow> output_rows() {
     using S = OutputParameters;
     return {
-        row("output", "shape_interval", &P::output, &S::shape_interval, "µs", positive(1e9), "",
-            "simulated time between membrane shapes in shapes.h5"),
-        row("output", "field_interval", &P::output, &S::field_interval, "µs", at_least(0, 1e9), "",
-            "simulated time between field files for ParaView; 0 writes none"),
-        row("output", "checkpoint_interval", &P::output, &S::checkpoint_interval, "s", at_least(0, 1e9), "",
-            "wall time between checkpoints"),
-        row("output", "stop_at_budding", &P::output, &S::stop_at_budding, "", any(), "",
-            "end the run when the neck radius falls below 5 nm"),
+        free_on_restart(row("output", "shape_interval", &P::output, &S::shape_interval, "µs", positive(1e9), "",
+                            "simulated time between membrane shapes in shapes.h5")),
+        free_on_restart(row("output", "field_interval", &P::output, &S::field_interval, "µs", at_least(0, 1e9), "",
+                            "simulated time between field files for ParaView; 0 = no field files at all")),
+        free_on_restart(row("output", "checkpoint_interval", &P::output, &S::checkpoint_interval, "s", at_least(0, 1e9),
+                            "", "wall time between checkpoints")),
+        free_on_restart(row("output", "stop_at_budding", &P::output, &S::stop_at_budding, "", any(), "",
+                            "end the run when the neck radius falls below 5 nm")),
     };
 }
 

@@ -37,6 +37,8 @@ struct ParameterRow {
     std::vector<std::string> choices;
     std::function<ParameterValue(const Parameters&)> get;
     std::function<void(Parameters&, const ParameterValue&)> set;
+    /// A restart may change it: it says how far, how accurately or with what output a run goes, not what it computes.
+    bool free_on_restart = false;
 
     [[nodiscard]] std::string name() const { return section + "." + key; }
     [[nodiscard]] ParameterValue default_value() const { return get(Parameters{}); }

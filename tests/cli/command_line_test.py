@@ -95,7 +95,7 @@ class CommandLine(unittest.TestCase):
         markdown = endoflow("params", "--markdown").stdout
         self.assertIn("| `patch_radius` |", markdown)
         rows = [re.split(r"(?<!\\)\|", line) for line in markdown.splitlines() if line.startswith("|")]
-        self.assertEqual({len(row) for row in rows}, {8})  # six cells between outer bars, also where a meaning has a |
+        self.assertEqual({len(row) for row in rows}, {9})  # seven cells between outer bars, also where a meaning has a |
         self.assertIn("molecules.patch_radius", endoflow("params").stdout)
 
     def test_constitutive_laws(self):

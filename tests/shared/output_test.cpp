@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "run_helpers.h"
 #include "shared/output/atomic_file.h"
 #include "shared/output/checkpoint.h"
 #include "shared/output/hdf5_file.h"
@@ -15,30 +16,6 @@
 
 using namespace endoflow;
 using Catch::Matchers::Contains;
-
-namespace {
-
-std::string content(const std::filesystem::path& file) {
-    return read_file(file, 1 << 20);
-}
-
-HistoryRow row_at(double time, std::vector<double> extra = {7}) {
-    HistoryRow row;
-    row.time_us = time;
-    row.extra = std::move(extra);
-    return row;
-}
-
-MembraneCurve small_curve(double scale) {
-    const std::vector<double> x{0, scale, 2 * scale};
-    return {x, x, x, x, x, x, x, x};
-}
-
-EngineIdentity test_engine() {
-    return {.name = "boundary-integral", .libraries = {{"test", "1.0"}}, .history_columns = {"own_nm"}};
-}
-
-}  // namespace
 
 TEST_CASE("files are replaced whole or not at all") {
     const TemporaryDirectory directory;
@@ -65,7 +42,7 @@ TEST_CASE("history.csv has named columns, empty cells for what does not exist, a
     }
     std::ofstream(file, std::ios::app) << "2.0,torn";
     {
-        HistoryFile history(file, {"own_nm"}, 1.0);
+        HistoryFile history(file, {"own_nm"}, read_kept_history(file, {"own_nm"}, 1.0));
         history.append(row_at(1.25));
     }
     std::istringstream lines(content(file));
@@ -80,7 +57,7 @@ TEST_CASE("history.csv has named columns, empty cells for what does not exist, a
     CHECK(second.rfind("1,0,12.5,", 0) == 0);
     CHECK(third.rfind("1.25,", 0) == 0);
     CHECK_FALSE(std::getline(lines, fourth));
-    CHECK_THROWS_AS(HistoryFile(file, {"other"}, 1.0), IoError);
+    CHECK_THROWS_AS(read_kept_history(file, {"other"}, 1.0), IoError);
 }
 
 TEST_CASE("no value that is not finite reaches a file") {
@@ -189,118 +166,6 @@ TEST_CASE("a run's directory: record, events, restart, and an earlier run that i
     auto other = test_engine();
     other.name = "phase-field";
     CHECK_THROWS_AS(RunOutput(parameters, other, root / "earlier/1", StartMode::restart), IoError);
-}
-
-namespace {
-
-/// A run of three rows and two shapes with its checkpoint at 0.5 µs, left as by a kill.
-void leave_killed_run(const std::filesystem::path& root) {
-    RunOutput output(Parameters{}, test_engine(), root, StartMode::fresh);
-    output.write_shape(0, small_curve(1));
-    output.record_step(row_at(0.25));
-    output.record_step(row_at(0.5));
-    Checkpoint checkpoint;
-    checkpoint.time_us = 0.5;
-    output.write_checkpoint(checkpoint);
-    output.record_step(row_at(1.0));
-    output.write_shape(1, small_curve(2));
-}
-
-std::string refusal_to_restart(const std::filesystem::path& root) {
-    try {
-        const RunOutput output(Parameters{}, test_engine(), root, StartMode::restart);
-    } catch (const IoError& error) {
-        return error.what();
-    }
-    return "";
-}
-
-}  // namespace
-
-TEST_CASE("a kill while shapes.h5 is being written loses no shape: the checkpoint has a copy") {
-    const TemporaryDirectory directory;
-    const auto root = directory.path() / "run";
-    const auto shapes_left = [&] { return Hdf5File(root / "shapes.h5", Hdf5File::Mode::read).members("/shapes"); };
-    leave_killed_run(root);
-    for (const std::uintmax_t size : {0U, 100U, 1000U, 3000U}) {
-        std::filesystem::resize_file(root / "shapes.h5", size);
-        CHECK(refusal_to_restart(root).empty());
-        CHECK(shapes_left() == std::vector<std::string>{"000000"});
-    }
-    std::filesystem::remove(root / "shapes.h5");
-    CHECK(refusal_to_restart(root).empty());
-    CHECK(shapes_left().size() == 1);
-}
-
-TEST_CASE("a history that lost rows is not continued, and not touched") {
-    const TemporaryDirectory directory;
-    const auto root = directory.path() / "run", file = root / "history.csv";
-    leave_killed_run(root);
-    const std::string whole = content(file);
-    const auto second_row = whole.find("\n0.5,") + 1;
-    const auto damaged = [&](const std::string& text) {
-        std::ofstream(file, std::ios::trunc) << text;
-        std::string message = refusal_to_restart(root);
-        CHECK(content(file) == text);
-        return message;
-    };
-    CHECK_THAT(damaged(whole.substr(0, second_row)), Contains("1 intact rows") && Contains("written 2"));
-    CHECK_THAT(damaged(whole.substr(0, second_row + 4)), Contains("1 intact rows"));
-    CHECK_THAT(damaged(whole.substr(0, second_row) + std::string(40, '\0') + "\n"), Contains("1 intact rows"));
-    CHECK_THAT(damaged(whole.substr(0, second_row) + "0.5,nan\n" + whole.substr(second_row)),
-               Contains("1 intact rows"));
-    CHECK_THAT(damaged(""), Contains("its columns are not"));
-    std::filesystem::remove(file);
-    CHECK_THAT(refusal_to_restart(root), Contains("history.csv"));
-
-    std::ofstream(file) << whole << "1.5,torn";
-    CHECK(refusal_to_restart(root).empty());
-    CHECK(content(file) == whole.substr(0, whole.find("\n1,") + 1));
-}
-
-TEST_CASE("checkpoints that are not ours, or not whole, are one clear error") {
-    const TemporaryDirectory directory;
-    const auto root = directory.path() / "run", file = root / "checkpoint" / "state.h5";
-    leave_killed_run(root);
-    const std::string whole = content(file);
-    for (const double part : {0.0, 0.1, 0.5, 0.9, 0.99}) {
-        std::ofstream(file, std::ios::trunc | std::ios::binary)
-            << whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size())));
-        CHECK_THAT(refusal_to_restart(root), Contains("state.h5"));
-    }
-    const auto foreign_record = [&](const std::string& text) {
-        Checkpoint checkpoint;
-        checkpoint.time_us = 0.5;
-        checkpoint.texts["run_record"] = text;
-        write_checkpoint_file(root / "checkpoint", checkpoint);
-        return refusal_to_restart(root);
-    };
-    CHECK_THAT(foreign_record("{"), Contains("damaged run record"));
-    CHECK_THAT(foreign_record("[]"), Contains("run record"));
-    CHECK_THAT(foreign_record("{\"engine\": 3}"), Contains("run record"));
-    CHECK_THAT(foreign_record("{\"engine\": \"test\", \"restarts\": \"x\"}"), Contains("run record"));
-}
-
-TEST_CASE("a restart cannot change the parameters its checkpoint is made for, and changes nothing when it tries") {
-    const TemporaryDirectory directory;
-    const auto root = directory.path() / "run";
-    leave_killed_run(root);
-    const std::string history = content(root / "history.csv"), record = content(root / "run.json");
-    auto engine = test_engine();
-    engine.kept_parameters = {"domain.kind", "domain.radius"};
-    Parameters parameters;
-    parameters.domain.radius = 90;
-    parameters.time.end = 2;
-    try {
-        const RunOutput output(parameters, engine, root, StartMode::restart);
-        FAIL("no error");
-    } catch (const InputError& error) {
-        CHECK_THAT(error.what(), Contains("domain.radius = 90.0: the run to continue has 80.0"));
-    }
-    CHECK(content(root / "history.csv") == history);
-    CHECK(content(root / "run.json") == record);
-    parameters.domain.radius = Parameters{}.domain.radius;
-    CHECK(RunOutput(parameters, engine, root, StartMode::restart).restart_point()->time_us == 0.5);
 }
 
 TEST_CASE("a directory that cannot be made is one clear error") {

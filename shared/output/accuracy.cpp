@@ -1,0 +1,97 @@
+#include "shared/output/accuracy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shared/support/error.h"
+
+namespace endoflow {
+
+namespace {
+
+/// The entry of run.json's `accuracy` for a quantity, made when it is not there.
+RunRecord& entry(RunRecord& record, const AccuracyBound& bound) {
+    RunRecord& found = record["accuracy"][bound.name];
+    if (found.is_null()) found = {{"largest", 0.0}, {"time_us", 0.0}, {"bound", bound.bound}, {"limit", bound.limit}};
+    return found;
+}
+
+std::string beyond(const std::string& meaning, double value, double allowed) {
+    return fmt::format("{}: {:.2g}, allowed {:g}", meaning, value, allowed);
+}
+
+bool raised_before(const RunRecord& record, const std::string& name) {
+    return record.contains("alarms") && std::any_of(record["alarms"].begin(), record["alarms"].end(),
+                                                    [&](const auto& alarm) { return alarm.at("name") == name; });
+}
+
+}  // namespace
+
+std::string Alarm::describe() const {
+    return fmt::format("{} at t = {:.4g} µs: {}; {}", name, time_us, beyond(meaning, value, bound), remedy);
+}
+
+AccuracyWatch::AccuracyWatch(const Parameters& parameters, const EngineIdentity& engine)
+    : columns_(engine.history_columns) {
+    for (const AccuracyBound& bound : accuracy_bounds())
+        if (bound.engine == engine.name && has_column(bound.column, columns_) &&
+            (!bound.applies || bound.applies(parameters)))
+            bounds_.push_back(bound);
+}
+
+double AccuracyWatch::measured(const AccuracyBound& bound, const HistoryRow& row, RunRecord& memory) const {
+    const double value = value_of(bound.column, row, columns_).value_or(0);
+    switch (bound.measure) {
+        case AccuracyMeasure::value:
+            return std::abs(value);
+        case AccuracyMeasure::drift: {
+            if (!memory.contains("first")) memory["first"] = value;
+            const double first = memory["first"].get<double>();
+            return first == 0 ? 0 : std::abs(value / first - 1);
+        }
+        case AccuracyMeasure::accumulated: {
+            if (!memory.contains("energy_pN_nm")) memory["energy_pN_nm"] = row.bending_energy_pN_nm;
+            const double sum = memory.value("sum", 0.0) + value * row.step_us;
+            memory["sum"] = sum;
+            const double energy = memory["energy_pN_nm"].get<double>();
+            return energy == 0 ? 0 : std::abs(sum / energy);
+        }
+    }
+    throw std::logic_error("no such measure of accuracy");
+}
+
+std::vector<Alarm> AccuracyWatch::look_at(const HistoryRow& row, RunRecord& record) const {
+    std::vector<Alarm> alarms;
+    for (const AccuracyBound& bound : bounds_)
+        if (const auto alarm = look_at(bound, row.time_us, measured(bound, row, entry(record, bound)), record))
+            alarms.push_back(*alarm);
+    return alarms;
+}
+
+std::optional<Alarm> AccuracyWatch::look_at(const AccuracyBound& bound, double time_us, double value,
+                                            RunRecord& record) {
+    RunRecord& seen = entry(record, bound);
+    if (value > seen["largest"].get<double>()) {
+        seen["largest"] = value;
+        seen["time_us"] = time_us;
+    }
+    std::optional<Alarm> alarm;
+    if (value > bound.bound && !raised_before(record, bound.name)) {
+        alarm = Alarm{bound.name, time_us, value, bound.bound, bound.meaning, bound.remedy};
+        record["alarms"].push_back({{"name", bound.name},
+                                    {"time_us", time_us},
+                                    {"value", value},
+                                    {"bound", bound.bound},
+                                    {"meaning", bound.meaning},
+                                    {"remedy", bound.remedy}});
+    }
+    if (value > bound.limit)
+        throw SolverError(bound.name,
+                          fmt::format("{} at t = {:.6g} µs", beyond(bound.meaning, value, bound.limit), time_us),
+                          bound.remedy);
+    return alarm;
+}
+
+}  // namespace endoflow

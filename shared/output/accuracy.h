@@ -1,0 +1,73 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shared/output/history_file.h"
+#include "shared/output/run_record.h"
+#include "shared/parameters/parameters.h"
+
+namespace endoflow {
+
+/// How a quantity that says how accurate a run is follows from a column of its history.
+enum class AccuracyMeasure {
+    value,       ///< |column|
+    drift,       ///< |column − its first value| / |its first value|
+    accumulated  ///< |∫ column dt| / the bending energy of the first row
+};
+
+/// A quantity that is small in an accurate run, and how large it may get.
+struct AccuracyBound {
+    std::string name;
+    std::string engine;
+    std::string column;  // of history.csv
+    AccuracyMeasure measure;
+    double bound;  // beyond it the run raises an alarm
+    double limit;  // beyond it the run is not a solution any more and stops
+    std::string meaning;
+    std::string remedy;
+    std::function<bool(const Parameters&)> applies;  // empty: to every case
+};
+
+/// All bounds of all engines; the table in docs/outputs.md is this one.
+[[nodiscard]] const std::vector<AccuracyBound>& accuracy_bounds();
+
+/// The bounds as a Markdown table.
+[[nodiscard]] std::string render_accuracy_markdown();
+
+/// A quantity that left its bound: run.json's `alarms`.
+struct Alarm {
+    std::string name;
+    double time_us;  // when it first did
+    double value;
+    double bound;
+    std::string meaning;
+    std::string remedy;
+
+    /// One line: what is how large, when, and what to change.
+    [[nodiscard]] std::string describe() const;
+};
+
+/// Follows the quantities of one run. What it must remember stands in the run's record (`accuracy`: for each quantity
+/// its largest value, when that was, bound and limit; `alarms`), so a restart goes on from there.
+class AccuracyWatch {
+  public:
+    AccuracyWatch(const Parameters& parameters, const EngineIdentity& engine);
+
+    /// Looks at a row; returns the alarms it raises. Throws SolverError named as the quantity that exceeds its limit.
+    std::vector<Alarm> look_at(const HistoryRow& row, RunRecord& record) const;
+
+    /// The same for a quantity that is in no column; `bound.column` and `bound.measure` do not matter.
+    static std::optional<Alarm> look_at(const AccuracyBound& bound, double time_us, double value, RunRecord& record);
+
+  private:
+    [[nodiscard]] double measured(const AccuracyBound& bound, const HistoryRow& row, RunRecord& memory) const;
+
+    std::vector<AccuracyBound> bounds_;
+    std::vector<std::string> columns_;
+};
+
+}  // namespace endoflow

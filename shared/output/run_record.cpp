@@ -1,0 +1,108 @@
+#include "shared/output/run_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "shared/parameters/parameter_rendering.h"
+#include "shared/parameters/parameter_table.h"
+#include "shared/support/error.h"
+
+namespace endoflow {
+
+namespace {
+
+/// "boundary-integral" for keys in [boundary_integral] and its subsections: no other engine reads them.
+std::string only_reader(const ParameterRow& row) {
+    std::string name = row.section.substr(0, row.section.find('.'));
+    if (name != "boundary_integral" && name != "phase_field") return "";
+    std::replace(name.begin(), name.end(), '_', '-');
+    return name;
+}
+
+nlohmann::ordered_json as_json(const ParameterRow& row, const Parameters& parameters) {
+    return std::visit([](const auto& value) { return nlohmann::ordered_json(value); }, row.get(parameters));
+}
+
+/// A record of a version that did not know the parameter ran with what is its default now.
+nlohmann::ordered_json recorded(const RunRecord& record, const ParameterRow& row) {
+    const auto& sections = record.at("parameters");
+    if (!sections.contains(row.section) || !sections.at(row.section).contains(row.key))
+        return as_json(row, Parameters{});
+    return sections.at(row.section).at(row.key);
+}
+
+}  // namespace
+
+RunRecord new_record(const Parameters& parameters, const EngineIdentity& engine) {
+    RunRecord record;
+    record["format"] = "endoflow run";
+    record["format_version"] = 1;
+    record["engine"] = engine.name;
+    record["state"] = "running";
+    record["exit_reason"] = nullptr;
+    record["parameters"] = parameters_to_json(parameters);
+    record["provenance"] = provenance(engine.libraries);
+    record["processes"] = engine.processes;
+    record["threads"] = engine.threads;
+    record["started"] = utc_now();
+    record["ended"] = nullptr;
+    record["restarts"] = 0;
+    record["segments"] = RunRecord::array();
+    record["time_us"] = 0.0;
+    record["steps"] = {{"accepted", 0}, {"rejected", 0}};
+    record["wall_s"] = 0.0;
+    record["cpu_s"] = 0.0;
+    record["phases"] = RunRecord::object();
+    record["events"] = RunRecord::object();
+    record["accuracy"] = RunRecord::object();
+    record["alarms"] = RunRecord::array();
+    record["notes"] = RunRecord::object();
+    begin_segment(record, parameters, engine, 0);
+    return record;
+}
+
+RunRecord parse_record(const std::string& text, const std::string& source) {
+    try {
+        RunRecord record = RunRecord::parse(text);
+        if (record.at("format") != "endoflow run") throw IoError(source + ": not a run record of endoflow");
+        return record;
+    } catch (const RunRecord::exception& failure) {
+        throw IoError(fmt::format("{}: damaged run record: {}", source, failure.what()));
+    }
+}
+
+void require_continuable(const RunRecord& record, const Parameters& parameters, const EngineIdentity& engine,
+                         const std::string& source) {
+    if (record.at("engine") != engine.name)
+        throw IoError(fmt::format("{}: was written by the {} engine, not by {}; run without --restart", source,
+                                  record.at("engine").get<std::string>(), engine.name));
+    for (const ParameterRow& row : parameter_table()) {
+        const std::string reader = only_reader(row);
+        if (row.free_on_restart || (!reader.empty() && reader != engine.name)) continue;
+        const auto before = recorded(record, row), now = as_json(row, parameters);
+        if (before != now)
+            throw InputError(
+                fmt::format("{} = {}: the run to continue has {}, which a restart cannot change; keep it, or start "
+                            "another run",
+                            row.name(), now.dump(), before.dump()));
+    }
+}
+
+void begin_segment(RunRecord& record, const Parameters& parameters, const EngineIdentity& engine, double begin_us) {
+    RunRecord segment = {{"begin_us", begin_us},      {"started", utc_now()},
+                         {"host", host_name()},       {"processes", engine.processes},
+                         {"threads", engine.threads}, {"parameters", RunRecord::object()}};
+    for (const ParameterRow& row : parameter_table())
+        if (row.free_on_restart) segment["parameters"][row.name()] = as_json(row, parameters);
+    record["segments"].push_back(std::move(segment));
+    record["parameters"] = parameters_to_json(parameters);
+    record["processes"] = engine.processes;
+    record["threads"] = engine.threads;
+}
+
+bool ended_in_order(const RunRecord& record) {
+    return record.at("state") != "running";
+}
+
+}  // namespace endoflow

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "shared/output/provenance.h"
+#include "shared/parameters/parameters.h"
+
+namespace endoflow {
+
+/// Whether the rows of history.csv follow each other in time, so that the live line can tell how far a run is.
+enum class RowOrder { in_time, along_a_branch };
+
+/// What an engine says of itself once.
+struct EngineIdentity {
+    std::string name;                          // "boundary-integral" or "phase-field"
+    LibraryVersions libraries;                 // what it is linked to
+    std::vector<std::string> history_columns;  // its own columns of history.csv, names ending in their unit
+    int processes = 1;
+    int threads = 1;
+    RowOrder row_order = RowOrder::in_time;
+};
+
+/// The content of run.json.
+using RunRecord = nlohmann::ordered_json;
+
+/// The record of a run that begins.
+[[nodiscard]] RunRecord new_record(const Parameters& parameters, const EngineIdentity& engine);
+
+/// Throws IoError that begins with `source` when the text is no run record.
+[[nodiscard]] RunRecord parse_record(const std::string& text, const std::string& source);
+
+/// Throws IoError when another engine wrote the record, InputError when the parameters state another problem than
+/// the record's: only those that the parameter table marks as free may differ.
+void require_continuable(const RunRecord& record, const Parameters& parameters, const EngineIdentity& engine,
+                         const std::string& source);
+
+/// Takes over the parameters and adds to `segments` when and where this part of the run begins, and with which values
+/// of the parameters that a restart may change.
+void begin_segment(RunRecord& record, const Parameters& parameters, const EngineIdentity& engine, double begin_us);
+
+/// Whether the run that the record tells of had its last word: it is neither running nor was it killed.
+[[nodiscard]] bool ended_in_order(const RunRecord& record);
+
+}  // namespace endoflow

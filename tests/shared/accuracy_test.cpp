@@ -1,0 +1,121 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "run_helpers.h"
+#include "shared/output/accuracy.h"
+#include "temporary_directory.h"
+
+using namespace endoflow;
+using Catch::Matchers::Contains;
+
+namespace {
+
+EngineIdentity sharp_engine() {
+    auto engine = test_engine();
+    engine.history_columns = {"energy_balance_relative", "force_balance_relative", "net_flux_relative",
+                              "area_balance_relative"};
+    return engine;
+}
+
+HistoryRow balanced_row(double time, double energy_balance = 0) {
+    return row_at(time, {energy_balance, 0, 0, 0});
+}
+
+}  // namespace
+
+TEST_CASE("a quantity that leaves its bound is one alarm in run.json, its largest value is kept through a restart") {
+    const TemporaryDirectory directory;
+    const auto root = directory.path() / "run";
+    const auto record = [&] { return nlohmann::json::parse(content(root / "run.json")); };
+    {
+        RunOutput output(Parameters{}, sharp_engine(), root, StartMode::fresh);
+        output.record_step(balanced_row(0.1, 5e-7));
+        output.write_shape(0.1, small_curve(1));
+        CHECK(record()["alarms"].empty());
+        output.record_step(balanced_row(0.2, 4e-3));
+        REQUIRE(record()["alarms"].size() == 1);
+        output.record_step(balanced_row(0.3, 8e-3));
+        output.record_step(balanced_row(0.4, 6e-3));
+        Checkpoint checkpoint;
+        checkpoint.time_us = 0.4;
+        output.write_checkpoint(checkpoint);
+    }
+    RunOutput output(Parameters{}, sharp_engine(), root, StartMode::restart);
+    output.record_step(balanced_row(0.5, 7e-3));
+    output.finish(ExitReason::done);
+    const auto alarms = record()["alarms"];
+    REQUIRE(alarms.size() == 1);
+    CHECK(alarms[0]["name"] == "energy-balance");
+    CHECK(alarms[0]["time_us"] == 0.2);
+    CHECK(alarms[0]["value"] == 4e-3);
+    CHECK(alarms[0]["bound"] == 1e-3);
+    CHECK_THAT(alarms[0]["remedy"].get<std::string>(), Contains("boundary_integral.elements"));
+    const auto largest = record()["accuracy"]["energy-balance"];
+    CHECK(largest["largest"] == 8e-3);
+    CHECK(largest["time_us"] == 0.3);
+}
+
+TEST_CASE("beyond its limit a quantity stops the run under its own name") {
+    const TemporaryDirectory directory;
+    RunOutput output(Parameters{}, sharp_engine(), directory.path() / "run", StartMode::fresh);
+    const RunOutput observer(Parameters{}, sharp_engine(), directory.path() / "run", StartMode::fresh,
+                             OutputRole::observer);
+    try {
+        output.record_step(balanced_row(0.1, 0.6));
+        FAIL("no error");
+    } catch (const SolverError& error) {
+        CHECK(error.name() == "energy-balance");
+        CHECK_THAT(error.what(), Contains("0.6") && Contains("boundary_integral.elements"));
+    }
+}
+
+TEST_CASE("drifts count from the first row, residuals of the energy law add up over time") {
+    const AccuracyWatch watch(Parameters{},
+                              {.name = "phase-field",
+                               .libraries = {},
+                               .history_columns = {"energy_law_residual_pN_nm_per_us", "thickness_error_max"}});
+    RunRecord record;
+    HistoryRow row = row_at(0, {0, 0});
+    row.bending_energy_pN_nm = 1000;
+    row.molecule_mass_nm2 = 50;
+    CHECK(watch.look_at(row, record).empty());
+    row.time_us = row.step_us = 0.5;
+    row.extra = {12, 0};  // 6 of 1000 pN nm
+    row.molecule_mass_nm2 = 50.1;
+    const auto drift = watch.look_at(row, record);
+    REQUIRE(drift.size() == 1);
+    CHECK(drift[0].name == "mass-drift");
+    CHECK(drift[0].value == Approx(2e-3));
+    row.time_us = 1;
+    const auto law = watch.look_at(row, record);
+    REQUIRE(law.size() == 1);
+    CHECK(law[0].name == "energy-law");
+    CHECK(law[0].value == Approx(12e-3));
+}
+
+TEST_CASE("a membrane that may stretch raises no alarm of strain") {
+    HistoryRow row = balanced_row(0.1);
+    row.area_strain_max = 0.5;
+    for (const Dynamics dynamics : {Dynamics::flow, Dynamics::geometric}) {
+        Parameters parameters;
+        parameters.fluid.dynamics = dynamics;
+        RunRecord record;
+        CHECK(AccuracyWatch(parameters, sharp_engine()).look_at(row, record).size() ==
+              (dynamics == Dynamics::flow ? 1 : 0));
+    }
+}
+
+TEST_CASE("every bound is below its limit, names what to change, and belongs to an engine") {
+    for (const AccuracyBound& bound : accuracy_bounds()) {
+        INFO(bound.engine << " " << bound.name);
+        CHECK(bound.bound < bound.limit);
+        CHECK_FALSE(bound.remedy.empty());
+        CHECK((bound.engine == "boundary-integral" || bound.engine == "phase-field"));
+        CHECK_THAT(render_accuracy_markdown(), Contains("`" + bound.name + "`"));
+    }
+}
+
+TEST_CASE("the documentation's table of bounds is the program's") {
+    const std::string page = content(ENDOFLOW_DOCS "/outputs.md");
+    CHECK_THAT(page, Contains(render_accuracy_markdown()));
+}
