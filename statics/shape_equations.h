@@ -1,6 +1,7 @@
 #pragma once
 
 #include "shared/model/bending_model.h"
+#include "shared/model/loads.h"
 #include "shared/model/membrane_energy.h"
 #include "shared/parameters/parameters.h"
 #include "statics/boundary_value_problem.h"

@@ -11,6 +11,7 @@
 #include "shared/support/interruption.h"
 #include "shared/support/nearest_word.h"
 #include "statics/sampled_curve.h"
+#include "statics/shape_integrals.h"
 #include "statics/state_writer.h"
 #include "statics/stationary_state.h"
 #include "statics/vesicle_case.h"
@@ -29,9 +30,16 @@ std::vector<std::string> continuable(const Parameters& parameters) {
     const std::vector<std::string> more =
         is_vesicle(parameters)
             ? std::vector<std::string>{"domain.spheroid_polar_axis", "domain.spheroid_equatorial_axis"}
-            : std::vector<std::string>{"molecules.patch_radius", "molecules.interface_width", "domain.radius"};
+            : std::vector<std::string>{"molecules.patch_radius", "molecules.interface_width",
+                                       "domain.radius",          "membrane.rim_tension",
+                                       "membrane.pole_force",    "fluid.pressure_difference"};
     keys.insert(keys.end(), more.begin(), more.end());
     return keys;
+}
+
+/// Along a branch in a load the membrane may become a tube of any length: it is followed to the top of the box.
+bool is_load(const std::string& key) {
+    return key == "membrane.rim_tension" || key == "membrane.pole_force" || key == "fluid.pressure_difference";
 }
 
 /// The case as it is solved: patch_radius is that of the initial profile.
@@ -41,14 +49,20 @@ Parameters resolved(const Parameters& parameters, const Request& request) {
 
 /// `named` is the case the user sees, `solved` the one that was computed.
 Json write_state(StateWriter& writer, const Parameters& named, const Parameters& solved, const BranchPoint& point) {
-    const MembraneCurve curve = sampled_curve(solved, point.solution, GaussRule(Resolution{}.points), curve_points);
+    const GaussRule rule(Resolution{}.points);
+    const MembraneCurve curve = sampled_curve(solved, point.solution, rule, curve_points);
+    const ShapeIntegrals integrals = shape_integrals(solved, point.solution, rule);
+    const Loads loads = loads_of(solved);
     const double apex_height = curve.z.front() - curve.z.back();
-    Json figures =
-        writer.write(curve, BendingModel(solved.membrane),
-                     {named.molecules.patch_radius, named.membrane.spontaneous_curvature, curve.s.back(), apex_height,
-                      curve.lambda.front(), point.arc_length, static_cast<double>(point.folds_before)});
+    Json figures = writer.write(
+        curve, BendingModel(solved.membrane),
+        {named.molecules.patch_radius, named.membrane.spontaneous_curvature, curve.s.back(), apex_height,
+         curve.lambda.front(), point.arc_length, static_cast<double>(point.folds_before), loads.rim_tension,
+         loads.pressure, loads.pole_force, integrals.extension, integrals.potential(loads)});
     figures["apex_height_nm"] = apex_height;
     figures["tension_at_axis_pN_per_nm"] = curve.lambda.front();
+    if (!loads.none()) figures["potential_pN_nm"] = integrals.potential(loads);
+    if (loads.pole_force != 0) figures["pole_extension_nm"] = integrals.extension;
     return figures;
 }
 
@@ -61,7 +75,8 @@ void warn_about_walls(const Parameters& parameters, double height, RunOutput& ou
 
 ExitReason write_branch(const Parameters& parameters, const Request& request, const StationaryState& state,
                         StateWriter& writer) {
-    const auto& [key, end] = *request.continuation;
+    const std::string& key = request.continuation->key;
+    const double end = request.continuation->end;
     const ParameterRow& row = *find_parameter(key);
     const auto named = [&](double value) {
         Parameters changed = parameters;
@@ -69,19 +84,23 @@ ExitReason write_branch(const Parameters& parameters, const Request& request, co
         return changed;
     };
     const CasePath solved = [&](double value) { return resolved(named(value), request); };
+    bool left_the_box = false;
     const auto visit = [&](const BranchPoint& point) {
         const double value = point.solution.parameter;
         write_state(writer, named(value), solved(value).parameters, point);
-        return interruption_signal() == 0;
+        left_the_box = is_load(key) && reaches_the_top(parameters, point.solution);
+        return interruption_signal() == 0 && !left_the_box;
     };
     const auto branch = continue_state(state, solved, number_of(parameters, key), end, visit);
     if (!branch)
         throw SolverError("no-convergence", "Newton's method failed at the first point of the branch",
                           "choose another parameter or start from another case");
     if (interruption_signal() != 0) return ExitReason::interrupted;
-    const bool neck_closed = neck_closes(*branch);
+    const bool neck_closed = !left_the_box && neck_closes(*branch);
     describe_branch(writer, key, number_of(parameters, key), *branch,
-                    neck_closed ? "the neck closes" : to_string(branch->end));
+                    left_the_box  ? "the membrane reaches the top of the box"
+                    : neck_closed ? "the neck closes"
+                                  : to_string(branch->end));
     return neck_closed ? ExitReason::neck_closed : ExitReason::done;
 }
 
@@ -118,16 +137,17 @@ VesicleFamily parse_family(const std::string& text) {
 }
 
 EngineIdentity identity(const Parameters& parameters) {
-    return {
-        "statics",
-        {{"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}},
-        is_vesicle(parameters)
-            ? vesicle_columns()
-            : std::vector<std::string>{"patch_radius_nm", "spontaneous_curvature_per_nm", "curve_length_nm",
-                                       "apex_height_nm", "tension_at_axis_pN_per_nm", "branch_length", "folds_passed"},
-        1,
-        1,
-        RowOrder::along_a_branch};
+    return {"statics",
+            {{"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}},
+            is_vesicle(parameters)
+                ? vesicle_columns()
+                : std::vector<std::string>{"patch_radius_nm", "spontaneous_curvature_per_nm", "curve_length_nm",
+                                           "apex_height_nm", "tension_at_axis_pN_per_nm", "branch_length",
+                                           "folds_passed", "rim_tension_pN_per_nm", "pressure_difference_pN_per_nm2",
+                                           "pole_force_pN", "pole_extension_nm", "potential_pN_nm"},
+            1,
+            1,
+            RowOrder::along_a_branch};
 }
 
 void require_stationary_model(const Parameters& parameters, const Request& request) {
@@ -150,8 +170,7 @@ ExitReason simulate(const Parameters& parameters, const Request& request, RunOut
         const PhaseTimer timer(output, "search");
         search = search_stationary_state(solved);
     }
-    if (search.branch)
-        output.note("folds_on_the_way", describe_folds(search.branch->folds, "membrane.spontaneous_curvature"));
+    if (search.branch) output.note("folds_on_the_way", describe_folds(search.branch->folds, search.key));
     if (!search.state) throw explain_absence(solved, search);
     const StationaryState& state = *search.state;
 

@@ -6,27 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "shared/parameters/parameter_table.h"
 #include "statics/sampled_curve.h"
 
 namespace endoflow::statics {
 
 namespace {
 
-CasePath path_in_curvature(const Parameters& parameters) {
-    return [parameters](double curvature) {
-        Parameters changed = parameters;
-        changed.membrane.spontaneous_curvature = curvature;
-        return changed;
-    };
-}
-
-CasePath path_in_patch_radius(const Parameters& parameters) {
-    return [parameters](double radius) {
-        Parameters changed = parameters;
-        changed.molecules.patch_radius = radius;
-        return changed;
-    };
-}
+constexpr const char* curvature_key = "membrane.spontaneous_curvature";
 
 double scale_of_curvature(const Parameters& parameters) {
     const double curvature = std::abs(parameters.membrane.spontaneous_curvature);
@@ -88,7 +75,7 @@ std::optional<StationaryState> refined(const BoundaryValueProblem& problem, cons
         change};
 }
 
-constexpr const char* remedy = "choose a smaller patch or a smaller spontaneous curvature, or run the dynamics";
+constexpr const char* remedy = "choose a smaller patch, spontaneous curvature or load, or run the dynamics";
 
 std::string end_of_branch(const Branch& branch, const std::string& key, const std::string& unit) {
     if (!branch.folds.empty())
@@ -102,7 +89,7 @@ Search search_along(const Parameters& parameters, const Resolution& resolution, 
     const double target = parameters.membrane.spontaneous_curvature;
     const GaussRule rule(resolution.points);
     const BoundaryValueProblem problem =
-        stationary_shapes(path_in_curvature(parameters), target, scale_of_curvature(parameters));
+        stationary_shapes(path_in(parameters, curvature_key), target, scale_of_curvature(parameters));
     const auto start =
         begin_branch(problem, rule, flat_guess(parameters, rule, problem.state_scales, resolution.elements), target);
     Search search;
@@ -116,10 +103,26 @@ Search search_along(const Parameters& parameters, const Resolution& resolution, 
     return search;
 }
 
+/// Follows the state to the case's value of a load, which is 0 in `before`; ends the search there if that fails.
+void add_load(Search& search, const Parameters& before, const Parameters& loaded, const std::string& key,
+              const Resolution& resolution) {
+    const double wanted = std::get<double>(find_parameter(key)->get(loaded));
+    if (!search.state || wanted == 0) return;
+    const auto go_on = [&](const BranchPoint& point) { return !reaches_the_top(loaded, point.solution); };
+    auto branch = continue_state(*search.state, path_in(before, key), 0, wanted, go_on, resolution);
+    search.state.reset();
+    search.key = key;
+    search.branch = std::move(branch);
+    if (!search.branch || search.branch->end != BranchEnd::reached_target) return;
+    const GaussRule rule(resolution.points);
+    search.state =
+        refined(stationary_shapes(path_in(loaded, key), wanted, std::abs(wanted)), rule, loaded, search.branch->last);
+}
+
 /// Where the branch of smaller patches ends at the case's spontaneous curvature; empty when none was found.
 std::string end_in_patch_radius(const Parameters& parameters, const Resolution& resolution) {
     const double wanted = parameters.molecules.patch_radius;
-    const CasePath path = path_in_patch_radius(parameters);
+    const CasePath path = path_in(parameters, "molecules.patch_radius");
     for (double radius = 0.9 * wanted; radius > 0.3 * wanted; radius *= 0.9) {
         const Search smaller = search_along(path(radius).parameters, resolution, before_fold);
         if (!smaller.state) continue;
@@ -132,8 +135,27 @@ std::string end_in_patch_radius(const Parameters& parameters, const Resolution& 
 
 }  // namespace
 
+CasePath path_in(const Parameters& parameters, const std::string& key) {
+    return [parameters, &row = *find_parameter(key)](double value) {
+        Parameters changed = parameters;
+        row.set(changed, value);
+        return changed;
+    };
+}
+
+bool reaches_the_top(const Parameters& parameters, const PiecewiseSolution& solution) {
+    return solution.nodes(state::height, 0) > parameters.domain.height - parameters.domain.wall_clearance;
+}
+
 Search search_stationary_state(const Parameters& parameters, const Resolution& resolution) {
-    return search_along(parameters, resolution, neck_is_open);
+    Parameters pushed = parameters, pulled = parameters;
+    pushed.membrane.pole_force = 0;
+    Parameters free = pushed;
+    free.fluid.pressure_difference = 0;
+    Search search = search_along(free, resolution, neck_is_open);
+    add_load(search, free, pushed, "fluid.pressure_difference", resolution);
+    add_load(search, pushed, pulled, "membrane.pole_force", resolution);
+    return search;
 }
 
 bool neck_closes(const Branch& branch) {
@@ -142,6 +164,9 @@ bool neck_closes(const Branch& branch) {
 
 SolverError explain_absence(const Parameters& parameters, const Search& search, const Resolution& resolution) {
     const std::string name = "no-stationary-state";
+    const bool by_curvature = search.key == curvature_key;
+    if (!search.branch && !by_curvature)
+        return {name, "Newton's method failed at the first step in " + search.key, remedy};
     if (!search.branch)
         return {name,
                 fmt::format("the molecules have no equilibrium with a patch of {:g} nm on the flat membrane",
@@ -153,8 +178,8 @@ SolverError explain_absence(const Parameters& parameters, const Search& search, 
             fmt::format("the stationary shapes that begin with the flat membrane do not reach this case "
                         "(molecules.patch_radius = {:g} nm): their branch {}{}",
                         parameters.molecules.patch_radius,
-                        end_of_branch(*search.branch, "membrane.spontaneous_curvature", "1/nm"),
-                        end_in_patch_radius(parameters, resolution)),
+                        end_of_branch(*search.branch, search.key, find_parameter(search.key)->unit),
+                        by_curvature ? end_in_patch_radius(parameters, resolution) : ""),
             remedy};
 }
 

@@ -9,13 +9,15 @@ namespace endoflow::statics {
 /// A stationary membrane of one case.
 struct StationaryState {
     Parameters parameters;
-    BranchPoint point;          // its parameter is the spontaneous curvature H0
+    BranchPoint point;          // its parameter is the last one in which it was followed
     double relative_error = 0;  // largest change of area, height and apex moment when every element was cut in two
 };
 
-/// What following the shapes from the flat membrane at H0 = 0 to the case's H0 gave.
+/// What following the shapes gave: from the flat membrane under the case's tension alone to the case's H0, then to its
+/// pressure, then to its pole force.
 struct Search {
-    std::optional<Branch> branch;          // empty when there is not even a solution at H0 = 0
+    std::string key = "membrane.spontaneous_curvature";  // in which the last branch was followed
+    std::optional<Branch> branch;          // the last one; empty when there is not even a solution at H0 = 0
     std::optional<StationaryState> state;  // empty when the branch does not reach the case
 };
 
@@ -28,8 +30,14 @@ struct Resolution {
 /// A branch is not followed beyond the first neck that is narrower than this, nm: the neck closes.
 inline constexpr double closed_neck_radius = 1.0;
 
-/// The stationary state that is connected with the flat membrane: the first one that is met at the case's H0.
+/// The stationary state that is connected with the flat membrane: the first one that is met at the case's H0 and loads.
 [[nodiscard]] Search search_stationary_state(const Parameters& parameters, const Resolution& resolution = {});
+
+/// The path of cases that differ in one number of the parameter table.
+[[nodiscard]] CasePath path_in(const Parameters& parameters, const std::string& key);
+
+/// Whether the membrane's apex is nearer to the top of the box than domain.wall_clearance.
+[[nodiscard]] bool reaches_the_top(const Parameters& parameters, const PiecewiseSolution& solution);
 
 /// Whether a branch ended because its neck closes.
 [[nodiscard]] bool neck_closes(const Branch& branch);

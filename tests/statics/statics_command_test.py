@@ -76,6 +76,23 @@ class Statics(unittest.TestCase):
         branch = json.loads((self.output / "run.json").read_text())["notes"]["branch"]
         self.assertEqual((branch["parameter"], branch["end"], branch["folds"]), ("molecules.patch_radius", 20, []))
 
+    def test_a_tube(self):
+        self.case.write_text(
+            "[domain]\nheight = 300\n"
+            "[membrane]\nbending_stiffness = 200\nbending_stiffness_coated = 200\nspontaneous_curvature = 0\n"
+            'rim_tension = 0.1\n[molecules]\ntransport = "advection"\n'
+        )
+        result = endoflow("statics", self.case, "-o", self.output, "--continue-in", "membrane.pole_force=100")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("the membrane reaches the top of the box", result.stdout)
+        branch = json.loads((self.output / "run.json").read_text())["notes"]["branch"]
+        overshoot = branch["folds"][0]
+        self.assertEqual(overshoot["parameter"], "membrane.pole_force")
+        self.assertGreater(overshoot["value"], 1.1 * 2 * np.pi * np.sqrt(2 * 100 * 0.1))
+        rows = self.rows()
+        self.assertGreater(max(float(row["pole_force_pN"]) for row in rows), 33)
+        self.assertGreater(float(rows[-1]["pole_extension_nm"]), 200)
+
     def test_a_case_beyond_the_fold(self):
         result = endoflow("statics", self.case, "-o", self.output, "--set", "molecules.patch_radius=26.5")
         self.assert_refused(result, 3, "no-stationary-state", "molecules.patch_radius = 25.594")

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "statics/piecewise_solution.h"
+#include "statics/shape_equations.h"
+
+namespace endoflow::statics {
+
+/// Integrals over a stationary membrane. With G = E + σ A − p V − F z̄ they are its derivatives along branches:
+/// dG/dσ = A, dG/dp = −V, dG/dF = −z̄.
+struct ShapeIntegrals {
+    double energy;     // E, pN nm
+    double area;       // A, nm²
+    double volume;     // V above the rim's height, nm³
+    double extension;  // z̄ over the rim's height, nm: where the pole force acts
+
+    [[nodiscard]] double potential(const Loads& loads) const {
+        return energy + loads.rim_tension * area - loads.pressure * volume - loads.pole_force * extension;
+    }
+};
+
+[[nodiscard]] ShapeIntegrals shape_integrals(const StationaryCase& stationary, const PiecewiseSolution& solution,
+                                             const GaussRule& rule);
+
+}  // namespace endoflow::statics

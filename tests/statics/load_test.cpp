@@ -1,0 +1,137 @@
+// Stationary membranes under rim tension, pressure and a pole force: first-order identities, tubes, snap-through.
+
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "shared/parameters/parameter_table.h"
+#include "statics/shape_integrals.h"
+#include "statics/stationary_state.h"
+
+using namespace endoflow;
+using namespace endoflow::statics;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+const GaussRule default_rule(Resolution{}.points);
+
+Parameters bare_membrane(double stiffness) {
+    Parameters parameters;
+    parameters.membrane.curvature_convention = CurvatureConvention::consistent;
+    parameters.membrane.bending_stiffness = parameters.membrane.bending_stiffness_coated = stiffness;
+    parameters.membrane.spontaneous_curvature = 0;
+    parameters.molecules.transport = Transport::advection;
+    return parameters;
+}
+
+/// `state` solved anew on its own mesh with one of its numbers changed.
+ShapeIntegrals at(const StationaryState& state, const std::string& key, double value) {
+    const CasePath path = path_in(state.parameters, key);
+    const auto problem = stationary_shapes(path, value, 1e-2);
+    PiecewiseSolution guess = state.point.solution;
+    guess.parameter = value;
+    const auto solved = solve_newton(problem, default_rule, guess, parameter_condition(guess, value, problem), 30);
+    REQUIRE(solved);
+    return shape_integrals(path(value), solved->solution, default_rule);
+}
+
+/// dG/d(key) by differences of fourth order.
+double slope_of_potential(const StationaryState& state, const std::string& key, double step) {
+    const double here = std::get<double>(find_parameter(key)->get(state.parameters));
+    const CasePath path = path_in(state.parameters, key);
+    const auto potential = [&](double value) {
+        return at(state, key, value).potential(loads_of(path(value).parameters));
+    };
+    return (8 * (potential(here + step) - potential(here - step)) -
+            (potential(here + 2 * step) - potential(here - 2 * step))) /
+           (12 * step);
+}
+
+struct Snap {
+    std::vector<double> folds;
+    BranchEnd end;
+};
+
+/// The coat of Hassinger et al., PNAS 2017, whose radius grows to 150 nm or until the neck is 10 nm wide.
+Snap growing_coat(double tension, const Resolution& resolution) {
+    Parameters parameters = bare_membrane(160);
+    parameters.domain.radius = 400;
+    parameters.membrane.spontaneous_curvature = 0.04;
+    parameters.membrane.rim_tension = tension;
+    parameters.molecules.patch_radius = 30;
+    const auto before_closing = [](const BranchPoint& point) {
+        const auto r2 = point.solution.nodes.row(state::r_squared);
+        for (Eigen::Index i = 1; i + 1 < r2.size(); ++i)
+            if (r2(i) < 100 && r2(i) < r2(i - 1) && r2(i) < r2(i + 1)) return false;
+        return true;
+    };
+    const auto branch =
+        continue_state(find_stationary_state(parameters, resolution), path_in(parameters, "molecules.patch_radius"), 30,
+                       150, before_closing, resolution);
+    REQUIRE(branch);
+    Snap snap{{}, branch->end};
+    for (const Fold& fold : branch->folds) snap.folds.push_back(fold.parameter());
+    return snap;
+}
+
+}  // namespace
+
+TEST_CASE("dG/dσ = A, dG/dp = −V, dG/dF = −z̄", "[statics][loads]") {
+    Parameters parameters;
+    parameters.molecules.patch_radius = 20;
+    // Molecules that diffuse by a law without bending in it do not make G stationary.
+    parameters.molecules.transport = Transport::advection;
+    parameters.membrane.rim_tension = 0.05;
+    parameters.fluid.pressure_difference = 1e-4;
+    parameters.membrane.pole_force = 3;
+    const auto state = find_stationary_state(parameters);
+    const ShapeIntegrals here = shape_integrals(parameters, state.point.solution, default_rule);
+    REQUIRE(here.extension > 10);  // a dome
+    // The steps make the truncation of the differences about 1e-10, and their round-off.
+    const double by_tension = slope_of_potential(state, "membrane.rim_tension", 1e-3);
+    const double by_pressure = slope_of_potential(state, "fluid.pressure_difference", 1e-5);
+    const double by_force = slope_of_potential(state, "membrane.pole_force", 0.05);
+    CHECK(by_force == Approx(-here.extension).epsilon(1e-8));
+    CHECK(by_pressure == Approx(-here.volume).epsilon(1e-8));
+    CHECK(by_tension == Approx(here.area).epsilon(1e-8));
+}
+
+TEST_CASE("A tube is pulled at F = 2π √(2βσ), after an overshoot that is larger in a small box", "[statics][loads]") {
+    // I. Derényi, F. Jülicher & J. Prost, Phys. Rev. Lett. 88, 238101 (2002): +13 % for a wide membrane.
+    const double beta = 100, tension = 0.1, plateau = 2 * pi * std::sqrt(2 * beta * tension);
+    std::vector<double> overshoot;
+    for (const double radius : {80.0, 200.0}) {
+        Parameters parameters = bare_membrane(beta);
+        parameters.domain.radius = radius;
+        parameters.domain.height = 450;
+        parameters.membrane.rim_tension = tension;
+        double largest = 0, last = 0;
+        const auto visit = [&](const BranchPoint& point) {
+            last = point.solution.parameter;
+            largest = std::max(largest, last);
+            return !reaches_the_top(parameters, point.solution);
+        };
+        const auto branch = continue_state(find_stationary_state(parameters),
+                                           path_in(parameters, "membrane.pole_force"), 0, 100, visit);
+        REQUIRE(branch);
+        REQUIRE(branch->folds.size() >= 3);  // the oscillation is damped in the tube's length
+        CHECK(branch->folds.front().parameter() >= largest);
+        CHECK(last == Approx(plateau).epsilon(1e-4));  // the tube is more than 300 nm long
+        overshoot.push_back(largest / plateau - 1);
+    }
+    CHECK(overshoot[0] > overshoot[1]);
+    CHECK(overshoot[1] == Approx(0.13).margin(0.01));
+}
+
+TEST_CASE("A growing coat snaps through two folds at 0.02 pN/nm, and at no other tension", "[statics][loads]") {
+    // J. E. Hassinger et al., PNAS 114, E1118 (2017), Fig. 3.
+    CHECK(growing_coat(0.002, {}).folds.empty());
+    const Snap taut = growing_coat(0.2, {});
+    CHECK(taut.folds.empty());
+    CHECK(taut.end == BranchEnd::reached_target);
+    const Snap coarse = growing_coat(0.02, {}), fine = growing_coat(0.02, {5, 96});
+    REQUIRE(coarse.folds.size() == 2);
+    REQUIRE(fine.folds.size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) CHECK(coarse.folds[i] == Approx(fine.folds[i]).epsilon(1e-6));
+    CHECK(fine.folds[0] > fine.folds[1]);  // an S: between the two radii there are three shapes
+}
