@@ -4,13 +4,43 @@
 
 #include <cstdio>
 #include <new>
+#include <nlohmann/json.hpp>
 
+#include "locations.h"
 #include "shared/case/case_file.h"
 #include "shared/support/error.h"
 
 namespace endoflow::cli {
 
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The options of a command as a table: what manual page and completions of shells are made from.
+Json described(const CLI::App& app) {
+    Json options = Json::array();
+    for (const CLI::Option* option : app.get_options()) {
+        std::vector<std::string> names;
+        for (const auto& name : option->get_snames()) names.push_back("-" + name);
+        for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+        options.push_back({{"names", names},
+                           {"value", option->get_positional()               ? option->get_single_name()
+                                     : option->get_items_expected_max() > 0 ? "VALUE"
+                                                                            : ""},
+                           {"required", option->get_required()},
+                           {"help", option->get_description()},
+                           {"choices", Json::array()}});
+    }
+    return {{"command", app.get_name()}, {"description", app.get_description()}, {"options", options}};
+}
+
+}  // namespace
+
 bool parse(CLI::App& app, int argc, char** argv) {
+    if (argc == 2 && std::string(argv[1]) == "--describe") {
+        fmt::print("{}\n", described(app).dump());
+        return false;
+    }
     try {
         app.parse(argc, argv);
         return true;
@@ -28,7 +58,7 @@ std::optional<RunRequest> parse_run_request(int argc, char** argv, const std::st
     RunRequest request;
     std::vector<std::string> overrides;
     std::optional<std::string> until;
-    app.add_option("CASE", request.case_file, "case file (TOML)")->required();
+    app.add_option("CASE", request.case_file, case_help)->required();
     app.add_option("-o,--output", request.directory, "directory of the run [out/CASE/" + engine + "]");
     app.add_option("--set", overrides, "section.key=value, overrides the case file; may be repeated")
         ->allow_extra_args(false);
@@ -36,6 +66,7 @@ std::optional<RunRequest> parse_run_request(int argc, char** argv, const std::st
     app.add_flag("--restart", request.restart, "continue from the checkpoint in the run's directory");
     if (!parse(app, argc, argv)) return std::nullopt;
     if (until) overrides.push_back("time.end=" + *until);
+    request.case_file = find_case(request.case_file);
     request.parameters = read_case(request.case_file, overrides);
     if (request.directory.empty()) request.directory = std::filesystem::path("out") / request.case_file.stem() / engine;
     return request;

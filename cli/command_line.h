@@ -19,11 +19,15 @@ struct RunRequest {
     bool restart = false;
 };
 
+/// What every command says of its case file.
+inline constexpr const char* case_help = "case file (TOML), or the name of one that comes with endoflow";
+
 /// Parses the arguments behind `endoflow run ENGINE` and reads the case. Returns nothing when --help was answered.
 /// Throws InputError and IoError.
 [[nodiscard]] std::optional<RunRequest> parse_run_request(int argc, char** argv, const std::string& engine);
 
-/// Parses with CLI11; its complaints become InputErrors. Returns false when --help or --version was answered.
+/// Parses with CLI11; its complaints become InputErrors. Returns false when --help, --version or --describe, which
+/// prints the options as JSON, was answered.
 [[nodiscard]] bool parse(CLI::App& app, int argc, char** argv);
 
 /// A run that ended well has an exit code of its own; one that failed has a message too.

@@ -9,6 +9,7 @@
 
 #include "command_line.h"
 #include "laws.h"
+#include "locations.h"
 #include "process.h"
 #include "shared/case/case_file.h"
 #include "shared/parameters/parameter_rendering.h"
@@ -39,7 +40,7 @@ constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, comp
   endoflow movie DIR [-o FILE.mp4|FILE.gif]                a run as a film (needs ffmpeg)
   endoflow revolve DIR [--angle DEGREES]                   a run's membrane as surfaces in space, for ParaView
   endoflow statics CASE.toml [-o DIR] [--continue-in KEY=END]               stationary shapes of the sharp membrane
-  endoflow params [--markdown|--toml]                      every parameter: default, unit, bounds, meaning
+  endoflow params [SECTION] [--markdown|--toml|--json]     every parameter: default, unit, bounds, meaning
   endoflow laws [CASE.toml] [--set section.key=value]...   the constitutive laws b(c), H0(c) as CSV
   endoflow check CASE.toml [--set section.key=value]...    validate a case file; --json prints all its parameters
   endoflow summary DIR                                     one screen about a run
@@ -67,13 +68,18 @@ int run(int argc, char** argv) {
 
 int params(int argc, char** argv) {
     CLI::App app("Lists every parameter", "endoflow params");
-    bool markdown = false, toml = false;
+    bool markdown = false, toml = false, json = false;
+    std::string name;
+    app.add_option("SECTION", name, "of this section, or the parameter section.key [all]");
     auto* first = app.add_flag("--markdown", markdown, "as Markdown tables");
-    app.add_flag("--toml", toml, "as an annotated case file")->excludes(first);
+    auto* second = app.add_flag("--toml", toml, "as an annotated case file")->excludes(first);
+    app.add_flag("--json", json, "as a list with all that is known of each")->excludes(first)->excludes(second);
     if (!parse(app, argc, argv)) return 0;
-    fmt::print("{}", markdown ? render_parameters_markdown()
-                     : toml   ? render_parameters_toml(Parameters{})
-                              : render_parameters_text());
+    const ParameterRows rows = name.empty() ? parameter_table() : find_parameters(name);
+    fmt::print("{}", json       ? describe_parameters(rows).dump(2) + "\n"
+                     : markdown ? render_parameters_markdown(rows)
+                     : toml     ? render_parameters_toml(Parameters{}, rows)
+                                : render_parameters_text(rows));
     return 0;
 }
 
@@ -81,12 +87,12 @@ int check(int argc, char** argv) {
     CLI::App app("Validates a case file", "endoflow check");
     std::string file;
     std::vector<std::string> overrides;
-    app.add_option("CASE", file, "case file (TOML)")->required();
+    app.add_option("CASE", file, case_help)->required();
     app.add_option("--set", overrides, "section.key=value, overrides the case file")->allow_extra_args(false);
     bool json = false;
     app.add_flag("--json", json, "print every parameter with its value");
     if (!parse(app, argc, argv)) return 0;
-    const Parameters parameters = read_case(file, overrides);
+    const Parameters parameters = read_case(find_case(file), overrides);
     if (json)
         fmt::print("{}\n", parameters_to_json(parameters).dump(2));
     else
@@ -102,7 +108,7 @@ int laws(int argc, char** argv) {
     app.add_option("--set", overrides, "section.key=value, overrides the case file")->allow_extra_args(false);
     if (!parse(app, argc, argv)) return 0;
     const Parameters parameters =
-        file.empty() ? parse_case("", "the paper's case", overrides) : read_case(file, overrides);
+        file.empty() ? parse_case("", "the paper's case", overrides) : read_case(find_case(file), overrides);
     fmt::print("{}", constitutive_laws_csv(parameters.membrane));
     return 0;
 }

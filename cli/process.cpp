@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "locations.h"
 #include "shared/support/error.h"
 
 namespace endoflow::cli {
@@ -31,16 +32,6 @@ std::string python_program() {
 }
 
 }  // namespace
-
-fs::path program_directory() {
-    return fs::read_symlink("/proc/self/exe").parent_path();
-}
-
-fs::path data_directory() {
-    for (const fs::path& candidate : {program_directory() / "../share/endoflow", fs::path(ENDOFLOW_SOURCE_DIR)})
-        if (fs::is_directory(candidate / "comparisons")) return fs::weakly_canonical(candidate);
-    throw IoError("the scripts of endoflow were not found beside the program (../share/endoflow); reinstall it");
-}
 
 void become_program(const std::string& name, const std::vector<std::string>& arguments) {
     become(program_directory() / name, arguments);

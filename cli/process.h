@@ -6,13 +6,6 @@
 
 namespace endoflow::cli {
 
-/// Directory that holds the running program.
-[[nodiscard]] std::filesystem::path program_directory();
-
-/// Directory of the Python scripts ("comparisons", "python" and "cases" below it): of the installation the program
-/// belongs to, or of the source tree it was built from. Throws IoError when neither exists.
-[[nodiscard]] std::filesystem::path data_directory();
-
 /// Replaces this process by a program that lies beside it. Does not return; throws IoError when it cannot start.
 [[noreturn]] void become_program(const std::string& name, const std::vector<std::string>& arguments);
 

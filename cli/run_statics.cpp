@@ -3,6 +3,7 @@
 #include "command_line.h"
 #include "engine_run.h"
 #include "launcher.h"
+#include "locations.h"
 #include "shared/case/case_file.h"
 #include "shared/output/run_output.h"
 #include "shared/support/interruption.h"
@@ -21,7 +22,7 @@ int run(int argc, char** argv) {
     std::vector<std::string> overrides;
     std::string continuation, family;
     statics::Request request;
-    app.add_option("CASE", case_file, "case file (TOML)")->required();
+    app.add_option("CASE", case_file, case_help)->required();
     app.add_option("-o,--output", directory, "directory of the result [out/CASE/statics]");
     app.add_option("--set", overrides, "section.key=value, overrides the case file; may be repeated")
         ->allow_extra_args(false);
@@ -33,6 +34,7 @@ int run(int argc, char** argv) {
     if (!parse(app, argc, argv)) return 0;
     require_one_process("endoflow statics", "");
     if (!family.empty()) request.family = statics::parse_family(family);
+    case_file = find_case(case_file);
     const Parameters parameters = read_case(case_file, overrides);
     statics::require_stationary_model(parameters, request);
     if (!continuation.empty()) request.continuation = statics::parse_continuation(continuation, parameters);

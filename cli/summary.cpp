@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "shared/support/error.h"
@@ -36,8 +39,37 @@ std::vector<std::string> cells(const std::string& line) {
     return result;
 }
 
-/// The last complete row of history.csv as "name  value" lines.
-std::string last_row(const std::filesystem::path& file) {
+/// A column's name as words, and its unit: "membrane_area_nm2" is {"membrane area", "nm²"}.
+std::pair<std::string, std::string> words_and_unit(std::string column) {
+    static const std::vector<std::pair<std::string, std::string>> units{{"_pN_nm_per_us", "pN nm/µs"},
+                                                                        {"_nm3_per_us", "nm³/µs"},
+                                                                        {"_pN_per_nm", "pN/nm"},
+                                                                        {"_nm_per_us", "nm/µs"},
+                                                                        {"_per_nm", "1/nm"},
+                                                                        {"_pN_nm", "pN nm"},
+                                                                        {"_nm3", "nm³"},
+                                                                        {"_nm2", "nm²"},
+                                                                        {"_nm", "nm"},
+                                                                        {"_us", "µs"},
+                                                                        {"_pN", "pN"},
+                                                                        {"_s", "s"}};
+    const auto unit = std::find_if(units.begin(), units.end(),
+                                   [&](const auto& known) { return std::string_view(column).ends_with(known.first); });
+    if (unit != units.end()) column.resize(column.size() - unit->first.size());
+    std::replace(column.begin(), column.end(), '_', ' ');
+    return {column, unit == units.end() ? "" : unit->second};
+}
+
+/// A cell with five digits; what is no number as it is.
+std::string rounded(const std::string& cell) {
+    double number = 0;
+    const auto [rest, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+    const bool whole = error == std::errc{} && rest == cell.data() + cell.size();
+    return cell.empty() ? "-" : whole ? fmt::format("{:.5g}", number) : cell;
+}
+
+/// The last complete row of history.csv as "name  value unit" lines; stationary shapes have no time.
+std::string last_row(const std::filesystem::path& file, bool has_time) {
     std::ifstream stream(file);
     if (!stream) throw IoError(file.string() + ": cannot be read");
     std::string header, line, last;
@@ -47,8 +79,12 @@ std::string last_row(const std::filesystem::path& file) {
     const auto names = cells(header), values = cells(last);
     if (last.empty() || names.size() != values.size()) return "  no step was recorded\n";
     std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        text += fmt::format("  {:<36} {}\n", names[i], values[i].empty() ? "-" : values[i]);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (!has_time && (names[i] == "time_us" || names[i] == "step_us")) continue;
+        const auto [words, unit] = words_and_unit(names[i]);
+        text += fmt::format("  {:<30} {}{}{}\n", words, rounded(values[i]),
+                            values[i].empty() || unit.empty() ? "" : " ", values[i].empty() ? "" : unit);
+    }
     return text;
 }
 
@@ -57,28 +93,67 @@ double largest(const Json& record, const Json& alarm) {
     return record.at("accuracy").at(alarm.at("name").get<std::string>()).at("largest").get<double>();
 }
 
+/// How far a run came; a branch of stationary shapes counts its shapes where a run has its time.
+std::string reached(const Json& record) {
+    if (record.at("engine") != "statics")
+        return fmt::format("t = {:.6g} of {:g} µs", record.at("time_us").get<double>(),
+                           record.at("parameters").at("time").at("end").get<double>());
+    if (!record.at("notes").contains("branch")) return "one stationary shape";
+    const Json& branch = record.at("notes").at("branch");
+    return fmt::format("{} stationary shapes, {} from {:g} to {:.6g}", branch.at("points").get<long>(),
+                       branch.at("parameter").get<std::string>(), branch.at("begin").get<double>(),
+                       branch.at("end").get<double>());
+}
+
+/// What the numbers rest on: conventions and resolution.
+std::string basis(const Json& record) {
+    const Json& parameters = record.at("parameters");
+    const Json& notes = record.at("notes");
+    std::string resolution;
+    if (record.at("engine") == "phase-field") {
+        const double chosen = notes.value("cell_size_nm", 0.0);
+        const Json& own = parameters.at("phase_field");
+        resolution = fmt::format("layer of epsilon = {:g} nm", own.at("epsilon").get<double>());
+        if (chosen > 0) resolution += fmt::format(" on cells of {:.4g} nm", chosen);
+    } else {
+        const long elements = parameters.at("boundary_integral").at("elements").get<long>();
+        resolution = fmt::format("{} elements", notes.value("elements", elements));
+    }
+    if (record.at("engine") == "boundary-integral")
+        resolution += fmt::format(", time tolerance {:g}", parameters.at("time").at("tolerance").get<double>());
+    return fmt::format("  curvature convention {}; {}\n",
+                       parameters.at("membrane").at("curvature_convention").get<std::string>(), resolution);
+}
+
+/// One line for each quantity that left the bounds of an accurate run.
+std::string alarms(const Json& record) {
+    if (!record.contains("alarms")) return "";
+    std::string text;
+    for (const Json& alarm : record.at("alarms"))
+        text += fmt::format("  alarm: {} at t = {:.4g} µs: {}: {:.2g}, allowed {:g}; {}\n",
+                            alarm.at("name").get<std::string>(), alarm.at("time_us").get<double>(),
+                            alarm.at("meaning").get<std::string>(), largest(record, alarm),
+                            alarm.at("bound").get<double>(), alarm.at("remedy").get<std::string>());
+    return text.empty() ? "  no alarms: every balance stayed within its bound\n" : text;
+}
+
 std::string describe(const Json& record, const std::filesystem::path& directory) {
     const auto& steps = record.at("steps");
     const auto& reason = record.at("exit_reason");
     std::string text = fmt::format("{}: case '{}', {} engine\n", directory.string(),
                                    record.at("parameters").at("case").at("name").get<std::string>(),
                                    record.at("engine").get<std::string>());
-    text += fmt::format("  {} ({}), t = {:.6g} of {:g} µs\n", record.at("state").get<std::string>(),
-                        reason.is_string() ? reason.get<std::string>() : "no exit reason yet",
-                        record.at("time_us").get<double>(), record.at("parameters").at("time").at("end").get<double>());
+    text += fmt::format("  {} ({}), {}\n", record.at("state").get<std::string>(),
+                        reason.is_string() ? reason.get<std::string>() : "no exit reason yet", reached(record));
     text += fmt::format("  {} steps, {} rejected; {:.1f} s wall, {:.1f} s CPU, {} process(es); version {} ({})\n",
                         steps.at("accepted").get<long>(), steps.at("rejected").get<long>(),
                         record.at("wall_s").get<double>(), record.at("cpu_s").get<double>(),
                         record.at("processes").get<int>(), record.at("provenance").at("version").get<std::string>(),
                         record.at("provenance").at("git").get<std::string>());
+    text += basis(record);
     for (const auto& [name, event] : record.at("events").items())
-        text += fmt::format("  event: {} at t = {:.8g} µs\n", name, event.at("time_us").get<double>());
-    for (const auto& alarm : record.value("alarms", Json::array()))
-        text += fmt::format("  alarm: {} at t = {:.4g} µs: {}: {:.2g}, allowed {:g}; {}\n",
-                            alarm.at("name").get<std::string>(), alarm.at("time_us").get<double>(),
-                            alarm.at("meaning").get<std::string>(), largest(record, alarm),
-                            alarm.at("bound").get<double>(), alarm.at("remedy").get<std::string>());
-    return text;
+        text += fmt::format("  event: {} at t = {:.5g} µs\n", name, event.at("time_us").get<double>());
+    return text + alarms(record);
 }
 
 }  // namespace
@@ -87,7 +162,9 @@ std::string summarize_run(const std::filesystem::path& directory) {
     const auto file = directory / "run.json";
     const Json record = read_record(file);
     try {
-        return describe(record, directory) + "last step:\n" + last_row(directory / "history.csv");
+        const bool moves = record.at("engine") != "statics";
+        return describe(record, directory) + (moves ? "last step:\n" : "last shape:\n") +
+               last_row(directory / "history.csv", moves);
     } catch (const Json::exception& failure) {
         throw IoError(fmt::format("{}: not a complete run record: {}", file.string(), failure.what()));
     }

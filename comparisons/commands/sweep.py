@@ -94,7 +94,9 @@ def run(options):
     members = sweep_members(options, output)
     from comparisons.drawing import sweep_plots  # a missing matplotlib must show before the runs
     from comparisons.page.study_report import sweep_html
+    from comparisons.studies.members import parameter_units
 
+    units = parameter_units(program())
     with lock(output):
         if options.slurm:
             print(write_slurm(members, options, output))
@@ -109,7 +111,7 @@ def run(options):
                 return 128 + interruption.signal
         rows = collect(members, outcomes, output)
         keys = [*members[0].values]
-        drawn = sweep_plots.write_all(rows, keys, output)
+        drawn = sweep_plots.write_all(rows, keys, units, output)
         write_text(output / "report.html", sweep_html(rows, keys, drawn, output))
         print("\n".join(summary_lines(rows, output)))
         return RUN_FAILED if report_failures("sweep", outcomes) else 0

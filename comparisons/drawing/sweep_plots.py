@@ -25,6 +25,9 @@ MAPPED = 3
 #: A parameter's axis is logarithmic when its values span more than this factor.
 LOGARITHMIC_FROM = 30
 
+#: Smallest range of a linear value axis, relative to its values.
+LEAST_SPREAD = 1e-6
+
 #: Marker and line of each engine: both show where they coincide.
 LOOKS = {
     "boundary-integral": {"marker": "o", "markersize": 7, **style.LINES[0]},
@@ -35,15 +38,16 @@ LOOKS = {
 PADDING = {"w_pad": 0.08, "h_pad": 0.08}
 
 
-def write_all(rows, keys, directory):
+def write_all(rows, keys, units, directory):
     """Write the plots of a sweep's rows (as of sweep_table) over its varied keys into directory; returns {name: title}.
 
-    There are none for more than two varied keys.
+    units: {key: unit} of keys that have one. There are none for more than two varied keys.
     """
+    labels = [f"{key} ({units[key]})" if key in units else key for key in keys]
     if len(keys) == 1:
-        title, figure = f"Results against {keys[0]}", lines(rows, keys[0])
+        title, figure = f"Results against {keys[0]}", lines(rows, keys[0], labels[0])
     elif len(keys) == 2:
-        title, figure = f"Results over {keys[0]} and {keys[1]}", maps(rows, *keys)
+        title, figure = f"Results over {keys[0]} and {keys[1]}", maps(rows, keys, labels)
     else:
         return {}
     save(figure, directory, "sweep")
@@ -61,8 +65,8 @@ def positions(texts):
     return (list(range(len(texts))), False) if None in numbers else (numbers, True)
 
 
-def lines(rows, key):
-    """Every quantity against the parameter `key`, one line for each engine; crosses mark runs without the value."""
+def lines(rows, key, label):
+    """Every quantity against the parameter `key`, called `label` at its axis, one line for each engine; crosses mark runs without the value."""
     texts = list(dict.fromkeys(row[key] for row in rows))
     places, numeric = positions(texts)
     place = dict(zip(texts, places))
@@ -73,14 +77,23 @@ def lines(rows, key):
         axes.set_title(title)
         axes.margins(y=0.12)
         axes.ticklabel_format(axis="y", useOffset=False)
+        keep_apart(axes)
         if not any(row[column] is not None for row in rows):
             axes.set_yticks([])
             axes.text(0.5, 0.5, "none in any run", transform=axes.transAxes, ha="center", color="#777777")
     for axes in grid[-1]:
-        axes.set_xlabel(key)
+        axes.set_xlabel(label)
         _set_axis(axes, texts, places, numeric)
     _legend(figure, engines_of(rows), any(row[c] is None for row in rows for c in QUANTITIES))
     return figure
+
+
+def keep_apart(axes):
+    """Widen a linear value axis whose values differ by round-off alone: its ticks would show nothing but digits of that."""
+    low, high = axes.get_ylim()
+    middle = 0.5 * (low + high)
+    if axes.get_yscale() == "linear" and high - low < LEAST_SPREAD * abs(middle):
+        axes.set_ylim(middle - 0.5 * LEAST_SPREAD * abs(middle), middle + 0.5 * LEAST_SPREAD * abs(middle))
 
 
 def _draw_line(axes, rows, column, key, place):
@@ -122,9 +135,9 @@ def _legend(figure, engines, with_missing):
     figure.get_layout_engine().set(**PADDING)
 
 
-def maps(rows, key_x, key_y):
+def maps(rows, keys, labels):
     """Heat maps of the first quantities over two parameters, a row for each engine; grey where there is no value."""
-    engines = engines_of(rows)
+    (key_x, key_y), engines = keys, engines_of(rows)
     x, y = (list(dict.fromkeys(row[key] for row in rows)) for key in (key_x, key_y))
     height = 0.5 + len(engines) * (1.2 + min(3.4, max(1.4, 0.42 * len(y))))
     figure, grid = plt.subplots(len(engines), MAPPED, figsize=(12.4, height), squeeze=False, layout="constrained")
@@ -138,8 +151,8 @@ def maps(rows, key_x, key_y):
                     values[y.index(row[key_y]), x.index(row[key_x])] = row[column]
             _draw_map(axes, values, x, y)
             axes.set_title(QUANTITIES[column])
-            axes.set_xlabel(key_x)
-        line[0].set_ylabel(f"{style.ENGINE_NAMES[engine]}\n\n{key_y}" if len(engines) > 1 else key_y)
+            axes.set_xlabel(labels[0])
+        line[0].set_ylabel(f"{style.ENGINE_NAMES[engine]}\n\n{labels[1]}" if len(engines) > 1 else labels[1])
     return figure
 
 

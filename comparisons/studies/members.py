@@ -56,6 +56,14 @@ def resolved_parameters(program, case, settings):
     return json.loads(check.stdout)
 
 
+def parameter_units(program):
+    """{"section.key": unit} of every parameter that has one, as `endoflow params` knows them."""
+    listed = subprocess.run([str(program), "params", "--json"], capture_output=True, text=True, check=False)
+    if listed.returncode:
+        raise StudyError(last_line(listed.stderr) or f"{program} params failed", listed.returncode)
+    return {row["name"]: row["unit"] for row in json.loads(listed.stdout) if row["unit"]}
+
+
 def directory_name(values):
     """Readable relative path of varied values {section.key: text}, e.g. "patch_radius=36/epsilon=1.2".
 

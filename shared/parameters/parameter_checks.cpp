@@ -6,6 +6,7 @@
 
 #include "shared/parameters/parameter_table.h"
 #include "shared/support/error.h"
+#include "shared/support/nearest_word.h"
 
 namespace endoflow {
 
@@ -97,6 +98,20 @@ const ParameterRow* find_parameter(const std::string& name) {
                name[row.section.size()] == '.' && name.ends_with(row.key);
     });
     return found == table.end() ? nullptr : &*found;
+}
+
+std::vector<ParameterRow> find_parameters(const std::string& name) {
+    std::vector<ParameterRow> rows;
+    std::vector<std::string> known;
+    for (const auto& row : parameter_table()) {
+        known.push_back(row.name());
+        if (std::find(known.begin(), known.end(), row.section) == known.end()) known.push_back(row.section);
+        if ((row.name() + ".").starts_with(name + ".")) rows.push_back(row);
+    }
+    if (!rows.empty()) return rows;
+    const auto nearest = nearest_word(name, known);
+    throw InputError(fmt::format("{}: no such section or parameter; {}", name,
+                                 nearest ? fmt::format("did you mean '{}'?", *nearest) : "leave it out to see all"));
 }
 
 std::string describe_allowed(const ParameterRow& row) {

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "shared/parameters/parameter_table.h"
-
 namespace endoflow {
 
 namespace {
@@ -55,18 +53,18 @@ std::string to_toml(const ParameterValue& value) {
     return quoted(std::get<std::string>(value));
 }
 
-std::string render_parameters_text() {
+std::string render_parameters_text(const ParameterRows& rows) {
     std::size_t width = 0;
-    for (const auto& row : parameter_table()) width = std::max(width, row.name().size());
+    for (const auto& row : rows) width = std::max(width, row.name().size());
     std::string text;
-    for (const auto& row : parameter_table())
+    for (const auto& row : rows)
         text += fmt::format("{:<{}}  {:<14}  {}\n", row.name(), width, to_toml(row.default_value()), annotation(row));
     return text;
 }
 
-std::string render_parameters_markdown() {
+std::string render_parameters_markdown(const ParameterRows& rows) {
     std::string text, section;
-    for (const auto& row : parameter_table()) {
+    for (const auto& row : rows) {
         if (row.section != section) {
             section = row.section;
             text +=
@@ -80,9 +78,9 @@ std::string render_parameters_markdown() {
     return text;
 }
 
-std::string render_parameters_toml(const Parameters& parameters) {
+std::string render_parameters_toml(const Parameters& parameters, const ParameterRows& rows) {
     std::string text, section;
-    for (const auto& row : parameter_table()) {
+    for (const auto& row : rows) {
         if (row.section != section) {
             text += fmt::format("{}[{}]\n", section.empty() ? "" : "\n", row.section);
             section = row.section;
@@ -90,6 +88,17 @@ std::string render_parameters_toml(const Parameters& parameters) {
         text += fmt::format("# {}\n{} = {}\n", annotation(row), row.key, to_toml(row.get(parameters)));
     }
     return text;
+}
+
+nlohmann::ordered_json describe_parameters(const ParameterRows& rows) {
+    auto result = nlohmann::ordered_json::array();
+    for (const auto& row : rows) {
+        nlohmann::ordered_json entry{{"name", row.name()}};
+        std::visit([&](const auto& value) { entry["default"] = value; }, row.default_value());
+        entry.update({{"unit", row.unit}, {"allowed", allowed(row)}, {"symbol", row.symbol}, {"meaning", row.meaning}});
+        result.push_back(entry);
+    }
+    return result;
 }
 
 nlohmann::ordered_json parameters_to_json(const Parameters& parameters) {

@@ -2,19 +2,28 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "shared/parameters/parameter_table.h"
 #include "shared/parameters/parameters.h"
 
 namespace endoflow {
 
-/// Every parameter as aligned plain text: name, default, unit, bounds, meaning.
-[[nodiscard]] std::string render_parameters_text();
+using ParameterRows = std::vector<ParameterRow>;
 
-/// Every parameter as Markdown tables, one per section.
-[[nodiscard]] std::string render_parameters_markdown();
+/// Rows as aligned plain text: name, default, unit, bounds, meaning.
+[[nodiscard]] std::string render_parameters_text(const ParameterRows& rows = parameter_table());
 
-/// A complete case file with these values, each line annotated with unit, bounds and meaning.
-[[nodiscard]] std::string render_parameters_toml(const Parameters& parameters);
+/// Rows as Markdown tables, one per section.
+[[nodiscard]] std::string render_parameters_markdown(const ParameterRows& rows = parameter_table());
+
+/// Rows as a case file with these values (a complete one by default), each line annotated with unit, bounds and
+/// meaning.
+[[nodiscard]] std::string render_parameters_toml(const Parameters& parameters,
+                                                 const ParameterRows& rows = parameter_table());
+
+/// Rows as [{name, default, unit, allowed, symbol, meaning}].
+[[nodiscard]] nlohmann::ordered_json describe_parameters(const ParameterRows& rows = parameter_table());
 
 /// {"section": {"key": value}} with every parameter.
 [[nodiscard]] nlohmann::ordered_json parameters_to_json(const Parameters& parameters);

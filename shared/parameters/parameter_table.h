@@ -50,6 +50,10 @@ struct ParameterRow {
 /// The row called "section.key", nullptr when there is none.
 [[nodiscard]] const ParameterRow* find_parameter(const std::string& name);
 
+/// The rows of a section and of the sections below it, or the one row called "section.key"; throws InputError with the
+/// nearest known name when there is neither.
+[[nodiscard]] std::vector<ParameterRow> find_parameters(const std::string& name);
+
 /// A value in TOML syntax, numbers with as many digits as they need to be read back unchanged.
 [[nodiscard]] std::string to_toml(const ParameterValue& value);
 

@@ -98,6 +98,36 @@ class CommandLine(unittest.TestCase):
         self.assertEqual({len(row) for row in rows}, {9})  # seven cells between outer bars, also where a meaning has a |
         self.assertIn("molecules.patch_radius", endoflow("params").stdout)
 
+    def test_some_of_the_parameters(self):
+        lines = endoflow("params", "fluid").stdout.splitlines()
+        self.assertGreater(len(lines), 3)
+        self.assertTrue(all(line.startswith("fluid.") for line in lines), lines)
+        toml = endoflow("params", "time", "--toml").stdout
+        self.assertEqual(re.findall(r"^\[.*", toml, re.M), ["[time]"])
+        self.assertEqual(endoflow("check", self.case(toml)).returncode, 0)
+        (only,) = json.loads(endoflow("params", "time.end", "--json").stdout)
+        self.assertEqual((only["name"], only["default"], only["unit"]), ("time.end", 20.0, "µs"))
+        self.assert_refused(endoflow("params", "molecule"), 2, "did you mean 'molecules'")
+        self.assert_refused(endoflow("params", "time.ned"), 2, "did you mean 'time.end'")
+
+    def test_cases_by_name(self):
+        self.assertIn("valid (case 'fickian')", endoflow("check", "fickian", cwd=self.root).stdout)
+        self.assert_refused(endoflow("check", "fickain", cwd=self.root), 2, "did you mean 'fickian'")
+        self.assert_refused(endoflow("run", "boundary-integral", "x" * 20, cwd=self.root), 2, "known: ", "standard")
+        self.assertEqual(list(self.root.iterdir()), [])
+        (self.root / "fickian").write_text("[case]\nname = 'mine'\n")  # a file of that name comes first
+        self.assertIn("(case 'mine')", endoflow("check", "fickian", cwd=self.root).stdout)
+
+    def test_commands_describe_their_options(self):
+        for command in (["run", "boundary-integral"], ["statics"], ["check"], ["params"], ["laws"], ["summary"]):
+            with self.subTest(command):
+                found = json.loads(endoflow(*command, "--describe").stdout)
+                self.assertEqual(found["command"], " ".join(["endoflow", *command]))
+                shown = endoflow(*command, "--help").stdout
+                for option in found["options"]:
+                    for name in option["names"] or [option["value"]]:
+                        self.assertIn(name, shown)
+
     def test_constitutive_laws(self):
         rows = [row.split(",") for row in endoflow("laws").stdout.splitlines()]
         table = {name: [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
@@ -128,7 +158,31 @@ class CommandLine(unittest.TestCase):
             self.assertTrue((output / name).exists(), name)
         summary = endoflow("summary", output)
         self.assertEqual(summary.returncode, 0, summary.stderr)
-        self.assertIn("membrane_area_nm2", summary.stdout)
+        self.assertRegex(summary.stdout, r"\n  membrane area +2010\d nm²\n")
+        self.assertRegex(summary.stdout, r"\n  curvature convention as-printed; 80 elements, time tolerance 0.0001\n")
+        self.assertRegex(summary.stdout, r"\n  neck radius +-\n")
+
+    def test_summary_of_stationary_shapes(self):
+        """They have no time: a branch counts its shapes."""
+        case = self.case("[molecules]\npatch_radius = 20\n")
+        for name, arguments, words in (("one", [], "one stationary shape"),
+                                       ("branch", ["--continue-in", "molecules.patch_radius=20.5"],
+                                        r"\d+ stationary shapes, molecules.patch_radius from 20 to 20.5")):
+            self.assertEqual(endoflow("statics", case, "-o", self.root / name, *arguments).returncode, 0)
+            summary = endoflow("summary", self.root / name).stdout
+            self.assertRegex(summary, words)
+            self.assertNotRegex(summary, "µs")
+
+    def test_summary_shows_alarms(self):
+        output = self.root / "run"
+        endoflow("run", "boundary-integral", self.case(""), "-o", output, "--until", "0.0002")
+        record = json.loads((output / "run.json").read_text())
+        alarm = {"name": "energy-balance", "time_us": 1e-4, "value": 0.0041, "bound": 0.001, "meaning": "rate of energy",
+                 "remedy": "raise boundary_integral.elements"}
+        for alarms, line in (([], "no alarms: every balance stayed within its bound"),
+                             ([alarm], "alarm: energy-balance at t = 0.0001 µs: rate of energy: 0.0041, allowed 0.001; raise")):
+            (output / "run.json").write_text(json.dumps({**record, "alarms": alarms, "accuracy": {"energy-balance": {"largest": 0.0041}}}))
+            self.assertIn(line, endoflow("summary", output).stdout)
 
     def test_interruption_leaves_a_checkpoint_to_restart_from(self):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):

@@ -103,6 +103,8 @@ def main():
         print(",".join(["c", *laws]))
         for c in (0, 0.5, 1):
             print(",".join([str(c), *(f"{100 + 1100 * c},{c / 14.1}" for _ in range(3))]))
+    elif words[0] == "params":
+        print(json.dumps([{"name": "molecules.patch_radius", "unit": "nm"}, {"name": "molecules.transport", "unit": ""}]))
     elif words[0] == "check":
         print(json.dumps(resolved(words[1], settings)))
     else:

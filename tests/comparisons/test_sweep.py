@@ -5,6 +5,8 @@ import unittest
 import locations  # noqa: F401
 from studies import BOUNDARY_INTEGRAL, PATCHES, SweepTest
 
+from comparisons.drawing import sweep_plots
+
 
 class Sweep(SweepTest):
     def test_table_and_plots(self):
@@ -29,6 +31,27 @@ class Sweep(SweepTest):
         self.assertEqual(len(self.rows("s")), 8)
         self.assertIn("s/patch_radius=30/transport=fickian/phase-field fresh", self.runs())
         self.assertTrue((self.scratch / "s/sweep.svg").exists())
+
+    def test_axes_have_units_and_ticks_without_round_off(self):
+        """Runs that stop at budding end with a neck of 5 nm to round-off."""
+        rows = [
+            {
+                "molecules.patch_radius": text,
+                "engine": "boundary-integral",
+                **dict.fromkeys(sweep_plots.QUANTITIES, 1.0),
+            }
+            for text in ("20", "30", "40")
+        ]
+        for row, necks in zip(rows, (4.9999999999998, 5.0, 4.9999999999999)):
+            row["neck_radius_nm"] = necks
+        figure = sweep_plots.lines(rows, "molecules.patch_radius", "molecules.patch_radius (nm)")
+        figure.canvas.draw()
+        axes = figure.axes[list(sweep_plots.QUANTITIES).index("neck_radius_nm")]
+        texts = [label.get_text() for label in axes.get_yticklabels()]
+        self.assertLess(max(map(len, texts)), 10, texts)
+        self.assertEqual(figure.axes[-1].get_xlabel(), "molecules.patch_radius (nm)")
+        self.sweep("--vary", PATCHES, *BOUNDARY_INTEGRAL, "-o", "s")
+        self.assertIn("molecules.patch_radius (nm)", (self.scratch / "s/sweep.svg").read_text())
 
     def test_refused_before_anything_runs(self):
         for values, message in (

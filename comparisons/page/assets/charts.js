@@ -3,6 +3,9 @@
 // Smallest part of the largest value that a logarithmic axis shows: what is lower started from zero.
 const SMALLEST_SHOWN = 1e-5;
 
+// Smallest range of a linear axis that shows differences, relative to its values.
+const LEAST_SPREAD = 1e-6;
+
 const CHART = { width: 320, height: 176, left: 52, right: 16, top: 10, bottom: 24 };
 
 function svgElement(name, attributes, parent) {
@@ -67,7 +70,9 @@ function valueRange(chart) {
   if (low > high) return [0, 1];
   if (chart.logarithmic) return [Math.max(low / 1.15, high * SMALLEST_SHOWN), high * 1.15];
   if (chart.fromZero) low = Math.min(low, 0);
-  const room = (high - low || Math.abs(high) || 1) * 0.06;
+  // Values that differ by round-off alone are one value.
+  const spread = high - low > LEAST_SPREAD * Math.abs(high) ? high - low : Math.abs(high) || 1;
+  const room = spread * 0.06;
   return [chart.fromZero && low === 0 ? 0 : low - room, high + room];
 }
 
