@@ -40,6 +40,10 @@ class Project(unittest.TestCase):
 
 
 class Picture(unittest.TestCase):
+    def test_is_up_to_date(self):
+        drawn = (ROOT / "docs" / "images" / "architecture.svg").read_text("utf-8")
+        self.assertTrue(drawn == picture.picture(), "draw it again: python3 tools/architecture/picture.py")
+
     def test_rows(self):
         graph = {"a": {"b", "c"}, "b": {"d"}, "c": {"d"}}
         self.assertEqual(picture.rows_of(["a", "b", "c", "d", "e"], graph), [["a"], ["b", "c"], ["d", "e"]])
