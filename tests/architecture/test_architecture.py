@@ -94,6 +94,10 @@ class Circles(Tree):
 
 
 class Graphs(Tree):
+    def test_files_without_git(self):
+        root = self.tree({"a/x.h": "", "build/y.h": "", "tools/__pycache__/z.py": ""})
+        self.assertEqual(sources.tracked(root), ["a/x.h"])
+
     def test_python_modules(self):
         texts = {
             "comparisons/paper/__init__.py": "",

@@ -25,10 +25,14 @@ class MissingFileError(Exception):
 
 
 def tracked(root=ROOT):
-    """All files of the project that git does not ignore, as paths from the root in order."""
+    """All files of the project, as paths from the root in order: those that git does not ignore; without git all but builds."""
     command = ["git", "-C", str(root), "ls-files", "--cached", "--others", "--exclude-standard"]
-    listed = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
-    return sorted({name for name in listed if (root / name).is_file()})
+    if (root / ".git").exists():
+        listed = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
+    else:
+        inside = (path.relative_to(root) for path in root.rglob("*"))
+        listed = [path.as_posix() for path in inside if not path.parts[0].startswith(("build", "out", "."))]
+    return sorted({name for name in listed if (root / name).is_file() and "__pycache__" not in name})
 
 
 def source_files(files):
