@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "locations.h"
 #include "shared/case/case_file.h"
@@ -53,21 +56,40 @@ bool parse(CLI::App& app, int argc, char** argv) {
     }
 }
 
-std::optional<RunRequest> parse_run_request(int argc, char** argv, const std::string& engine) {
-    CLI::App app("Runs a case with the " + engine + " engine", "endoflow run " + engine);
+namespace {
+
+/// What may follow `endoflow run ENGINE`.
+struct RunOptions {
+    CLI::App app;
     RunRequest request;
     std::vector<std::string> overrides;
     std::optional<std::string> until;
-    app.add_option("CASE", request.case_file, case_help)->required();
-    app.add_option("-o,--output", request.directory, "directory of the run [out/CASE/" + engine + "]");
-    app.add_option("--set", overrides, "section.key=value, overrides the case file; may be repeated")
-        ->allow_extra_args(false);
-    app.add_option("--until", until, "time.end in µs");
-    app.add_flag("--restart", request.restart, "continue from the checkpoint in the run's directory");
-    if (!parse(app, argc, argv)) return std::nullopt;
-    if (until) overrides.push_back("time.end=" + *until);
+
+    explicit RunOptions(const std::string& engine)
+        : app("Runs a case with the " + engine + " engine", "endoflow run " + engine) {
+        app.add_option("CASE", request.case_file, case_help)->required();
+        app.add_option("-o,--output", request.directory, "directory of the run [out/CASE/" + engine + "]");
+        app.add_option("--set", overrides, "section.key=value, overrides the case file; may be repeated")
+            ->allow_extra_args(false);
+        app.add_option("--until", until, "time.end in µs");
+        app.add_flag("--restart", request.restart, "continue from the checkpoint in the run's directory");
+    }
+};
+
+}  // namespace
+
+std::string run_help() {
+    return RunOptions("ENGINE").app.help() +
+           "\nENGINE is boundary-integral or phase-field; mpirun -n N endoflow run phase-field ... uses N processes.\n";
+}
+
+std::optional<RunRequest> parse_run_request(int argc, char** argv, const std::string& engine) {
+    RunOptions options(engine);
+    if (!parse(options.app, argc, argv)) return std::nullopt;
+    RunRequest& request = options.request;
+    if (options.until) options.overrides.push_back("time.end=" + *options.until);
     request.case_file = find_case(request.case_file);
-    request.parameters = read_case(request.case_file, overrides);
+    request.parameters = read_case(request.case_file, options.overrides);
     if (request.directory.empty()) request.directory = std::filesystem::path("out") / request.case_file.stem() / engine;
     return request;
 }
@@ -84,6 +106,8 @@ Outcome attempt(const std::function<int()>& body) {
         return {static_cast<int>(error.code()), error.what()};
     } catch (const std::filesystem::filesystem_error& failure) {
         return {static_cast<int>(ExitCode::io), failure.what()};
+    } catch (const std::system_error& failure) {
+        return {static_cast<int>(ExitCode::io), failure.what()};
     } catch (const std::bad_alloc&) {
         return {stopped, "out of memory: use fewer elements or larger cells"};
     } catch (const std::exception& failure) {
@@ -93,9 +117,12 @@ Outcome attempt(const std::function<int()>& body) {
 }
 
 int report(const Outcome& outcome) {
-    std::fflush(stdout);
+    const bool told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    const std::string reason = told ? "" : std::strerror(errno);
     if (!outcome.error.empty()) fmt::print(stderr, "endoflow: {}\n", outcome.error);
-    return outcome.exit_code;
+    if (told || outcome.exit_code != 0) return outcome.exit_code;
+    fmt::print(stderr, "endoflow: standard output cannot be written: {}\n", reason);
+    return static_cast<int>(ExitCode::io);
 }
 
 }  // namespace endoflow::cli

@@ -26,6 +26,9 @@ inline constexpr const char* case_help = "case file (TOML), or the name of one t
 /// Throws InputError and IoError.
 [[nodiscard]] std::optional<RunRequest> parse_run_request(int argc, char** argv, const std::string& engine);
 
+/// What `endoflow run --help` prints.
+[[nodiscard]] std::string run_help();
+
 /// Parses with CLI11; its complaints become InputErrors. Returns false when --help, --version or --describe, which
 /// prints the options as JSON, was answered.
 [[nodiscard]] bool parse(CLI::App& app, int argc, char** argv);
@@ -39,7 +42,8 @@ struct Outcome {
 /// Calls `body`; every exception becomes an exit code and one line of text.
 [[nodiscard]] Outcome attempt(const std::function<int()>& body);
 
-/// Prints "endoflow: message" on stderr if there is an error; returns the exit code.
+/// Prints "endoflow: message" on stderr if there is an error; returns the exit code,
+/// that of failed output when all went well but standard output did not take what was printed.
 int report(const Outcome& outcome);
 
 /// The exit code that tells a shell that this signal ended the program.

@@ -44,6 +44,7 @@ constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, comp
   endoflow laws [CASE.toml] [--set section.key=value]...   the constitutive laws b(c), H0(c) as CSV
   endoflow check CASE.toml [--set section.key=value]...    validate a case file; --json prints all its parameters
   endoflow summary DIR                                     one screen about a run
+  endoflow help [COMMAND]                                  this text, or a command's own options
   endoflow --version
 )";
 
@@ -55,7 +56,7 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 int run(int argc, char** argv) {
     const std::string engine = argc > 1 ? argv[1] : "";
     if (engine == "--help" || engine == "-h" || engine.empty()) {
-        fmt::print("{}", overview);
+        fmt::print("{}", run_help());
         if (engine.empty()) throw InputError("command line: run needs an engine: boundary-integral or phase-field");
         return 0;
     }
@@ -122,6 +123,19 @@ int summary(int argc, char** argv) {
     return 0;
 }
 
+int dispatch(int argc, char** argv);
+
+/// `endoflow help run` is `endoflow run --help`.
+int help(int argc, char** argv) {
+    if (argc < 2) {
+        fmt::print("{}", overview);
+        return 0;
+    }
+    std::string option = "--help";
+    std::vector<char*> words{argv[0], argv[1], option.data(), nullptr};
+    return dispatch(3, words.data());
+}
+
 int dispatch(int argc, char** argv) {
     const std::string command = argc > 1 ? argv[1] : "--help";
     if (command == "--help" || command == "-h") {
@@ -136,6 +150,7 @@ int dispatch(int argc, char** argv) {
     if (std::find(scripts.begin(), scripts.end(), command) != scripts.end())
         become_python("comparisons", {argv + 1, argv + argc});
     if (command == "statics") become_program("endoflow-statics", {argv + 2, argv + argc});
+    if (command == "help") return help(argc - 1, argv + 1);
     if (command == "laws") return laws(argc - 1, argv + 1);
     if (command == "params") return params(argc - 1, argv + 1);
     if (command == "check") return check(argc - 1, argv + 1);

@@ -3,7 +3,11 @@
 #include <mpi.h>
 
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
+#include <stop_token>
+#include <string>
 #include <thread>
 
 #include "command_line.h"
@@ -44,6 +48,35 @@ std::unique_ptr<RunOutput> open_output(const RunRequest& request, int rank, int 
     return output;
 }
 
+/// mpirun kills its processes a second after it has asked them to end (odls_base_sigkill_timeout), often before a step
+/// is done. So a thread of the first process waits half of that after a signal, then writes the run's last word; what
+/// the last checkpoint holds is on the disk already.
+class LastWords {
+  public:
+    LastWords(RunOutput& output, int processes) {
+        if (processes > 1) thread_ = std::jthread([&output](const std::stop_token& ended) { watch(output, ended); });
+    }
+
+  private:
+    static void watch(RunOutput& output, const std::stop_token& ended) {
+        constexpr auto pause = std::chrono::milliseconds(20);
+        constexpr int pauses_for_the_step = 25;
+        for (int waited = 0; !ended.stop_requested() && waited < pauses_for_the_step;) {
+            std::this_thread::sleep_for(pause);
+            if (interruption_signal() != 0) ++waited;
+        }
+        if (ended.stop_requested()) return;
+        try {
+            output.leave_interrupted();
+        } catch (const Error& error) {
+            std::fputs((std::string("endoflow: ") + error.what() + "\n").c_str(), stderr);
+        }
+        std::_Exit(exit_code_of_signal(interruption_signal()));
+    }
+
+    std::jthread thread_;
+};
+
 int run(int argc, char** argv, int rank, int processes) {
     const auto request = parse_run_request(argc, argv, "phase-field");
     if (!request) return 0;
@@ -51,6 +84,7 @@ int run(int argc, char** argv, int rank, int processes) {
     install_signal_handlers();
     const auto output = open_output(*request, rank, processes);
     if (!output) return 0;
+    const LastWords last_words(*output, processes);
     return run_to_the_end(*output, [&] { return phasefield::simulate(request->parameters, *output, MPI_COMM_WORLD); });
 }
 

@@ -16,8 +16,8 @@ FieldIndex field_index(const RunOutput& output) {
     return output.restart_point() ? FieldIndex(directory, output.restart_point()->time_us) : FieldIndex(directory);
 }
 
-bool reached(double time, const StiffIntegrator& integrator) {
-    return time <= integrator.time() * (1.0 + same_time);
+bool later(double time, double than) {
+    return time > than * (1.0 + same_time);
 }
 
 Eigen::VectorXd state_at(double time, const StiffIntegrator& integrator) {
@@ -43,16 +43,21 @@ void OutputSeries::write_initial(const Eigen::VectorXd& y) {
     if (!output_.restart_point() && writes_fields()) write_fields(0.0, y);
 }
 
-void OutputSeries::write_until_now(const StiffIntegrator& integrator) {
-    for (double time = next_shape_time(); reached(time, integrator); time = next_shape_time())
+void OutputSeries::write_until(double end, const StiffIntegrator& integrator) {
+    for (double time = next_shape(); !later(time, end); time = next_shape())
         write_shape(time, state_at(time, integrator));
     if (!writes_fields()) return;
-    for (double time = next_field_time(); reached(time, integrator); time = next_field_time())
+    for (double time = next_field_time(); !later(time, end); time = next_field_time())
         write_fields(time, state_at(time, integrator));
 }
 
-double OutputSeries::next_shape_time() const {
-    return next_multiple(parameters_.output.shape_interval, std::max(start_, last_shape_));
+void OutputSeries::write_shape_at(double time, const StiffIntegrator& integrator) {
+    write_until(time, integrator);
+    if (later(time, last_shape_)) write_shape(time, state_at(time, integrator));
+}
+
+double OutputSeries::next_shape() const {
+    return next_shape_time(parameters_.output.shape_interval, std::max(start_, last_shape_));
 }
 
 double OutputSeries::next_field_time() const {

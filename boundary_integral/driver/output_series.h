@@ -8,8 +8,8 @@
 
 namespace endoflow::boundary_integral {
 
-/// shapes.h5 at multiples of output.shape_interval, fields/ at multiples of output.field_interval. After a restart the
-/// multiples before its beginning are past, whatever the intervals were.
+/// shapes.h5 at the times of next_shape_time(), at events and at the end; fields/ at multiples of
+/// output.field_interval. After a restart the multiples before its beginning are past, whatever the intervals were.
 class OutputSeries {
   public:
     OutputSeries(const Parameters& parameters, const MembraneDynamics& dynamics, RunOutput& output);
@@ -17,8 +17,11 @@ class OutputSeries {
     /// Shape and fields of the initial state, when the run is not a restart.
     void write_initial(const Eigen::VectorXd& y);
 
-    /// Everything due inside the integrator's last step.
-    void write_until_now(const StiffIntegrator& integrator);
+    /// Everything due up to a time inside the integrator's last step.
+    void write_until(double time, const StiffIntegrator& integrator);
+
+    /// The same, and the shape at this very time: of an event, of the end.
+    void write_shape_at(double time, const StiffIntegrator& integrator);
 
     void save(Checkpoint& checkpoint) const { checkpoint.scalars["last_shape"] = last_shape_; }
     void restore(const Checkpoint& checkpoint) { last_shape_ = checkpoint.scalar("last_shape"); }
@@ -33,7 +36,7 @@ class OutputSeries {
     double last_shape_ = -1.0;  // µs; negative before the first one
 
     [[nodiscard]] bool writes_fields() const;
-    [[nodiscard]] double next_shape_time() const;
+    [[nodiscard]] double next_shape() const;
     [[nodiscard]] double next_field_time() const;
     void write_shape(double time, const Eigen::VectorXd& y);
     void write_fields(double time, const Eigen::VectorXd& y);

@@ -34,11 +34,12 @@ class RunLoop {
             if (interruption_signal() != 0) return stop(ExitReason::interrupted);
             if (output_.checkpoint_due()) output_.write_checkpoint(resume_);
             advance();
-            series_.write_until_now(integrator_);
-            if (const auto reason = events_.look(integrator_, history_)) return stop(*reason);
+            if (const auto reason = events_.look(integrator_, history_, series_)) return stop(*reason);
+            series_.write_until(integrator_.time(), integrator_);
             history_.record(integrator_.time(), dynamics_.evaluate(integrator_.state(), operators_),
                             integrator_.last_order());
         }
+        series_.write_shape_at(integrator_.time(), integrator_);
         return stop(ExitReason::done);
     }
 

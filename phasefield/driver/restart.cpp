@@ -49,6 +49,7 @@ void TimeLoop::restart(const Checkpoint& checkpoint) {
         return value < 0 ? std::nullopt : std::optional(value);
     };
     time_ = checkpoint.time_us;
+    last_shape_ = time_;
     plan_output(time_);
     last_energy_ = checkpoint.scalar("bending_energy");
     last_loss_ = checkpoint.scalar("energy_loss_rate");

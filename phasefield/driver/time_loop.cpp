@@ -45,6 +45,7 @@ void TimeLoop::start_fresh() {
 ExitReason TimeLoop::run() {
     while (true) {
         if (const auto reason = reason_to_stop()) {
+            if (*reason != ExitReason::interrupted) write_shape(time_, contour_.curve);
             if (time_ > 0) checkpoint();
             return *reason;
         }
@@ -118,9 +119,14 @@ void TimeLoop::watch_neck(double tau) {
     Observables at_event = observables_;
     budding_time_ = before ? time_of_budding(*before, tau, at_event) : time_;
     output_.record_event("budding", *budding_time_,
-                         {{"bud_diameter_nm", at_event.neck->lateral_diameter},
+                         {{"neck_radius_nm", at_event.neck->radius},
+                          {"bud_diameter_nm", at_event.neck->lateral_diameter},
                           {"membrane_area_nm2", at_event.membrane_area},
                           {"bud_height_nm", at_event.bud_height}});
+    // Schemes that do not interpolate know the membrane at the end of the step only.
+    const double time = scheme_->interpolates() ? *budding_time_ : time_;
+    write_shapes_before(time);
+    write_shape(time, scheme_->interpolates() ? scheme_->contour_at(time).curve : contour_.curve);
 }
 
 double TimeLoop::time_of_budding(double before, double tau, Observables& at_event) const {
@@ -148,19 +154,35 @@ double TimeLoop::next_deadline() const {
 }
 
 void TimeLoop::plan_output(double time) {
-    next_shape_ = next_multiple(parameters_.output.shape_interval, time);
+    next_shape_ = shape_after(time);
     next_fields_ = next_multiple(parameters_.output.field_interval, time);
+}
+
+/// Early shapes would cut the steps of a scheme that does not interpolate.
+double TimeLoop::shape_after(double time) const {
+    const double interval = parameters_.output.shape_interval;
+    return scheme_->interpolates() ? next_shape_time(interval, time) : next_multiple(interval, time);
+}
+
+void TimeLoop::write_shapes_before(double time) {
+    for (; next_shape_ < time * (1 - same_time); next_shape_ = shape_after(next_shape_))
+        write_shape(next_shape_, scheme_->contour_at(next_shape_).curve);
+}
+
+void TimeLoop::write_shape(double time, const MembraneCurve& curve) {
+    if (time > 0 && time <= last_shape_ * (1 + same_time)) return;
+    output_.write_shape(time, curve);
+    last_shape_ = time;
 }
 
 void TimeLoop::write_due_output() {
     const auto now = [this](double time) { return std::abs(time - time_) <= same_time * time_; };
-    const auto due = [&](double time) { return time < time_ && !now(time); };
-    for (; due(next_shape_); next_shape_ = next_multiple(parameters_.output.shape_interval, next_shape_))
-        output_.write_shape(next_shape_, scheme_->contour_at(next_shape_).curve);
-    for (; due(next_fields_); next_fields_ = next_multiple(parameters_.output.field_interval, next_fields_))
+    write_shapes_before(time_);
+    for (; next_fields_ < time_ && !now(next_fields_);
+         next_fields_ = next_multiple(parameters_.output.field_interval, next_fields_))
         write_fields(next_fields_);
     const bool end = time_ >= parameters_.time.end * (1 - same_time);
-    if (end || now(next_shape_)) output_.write_shape(time_, contour_.curve);
+    if (end || now(next_shape_)) write_shape(time_, contour_.curve);
     if ((end && parameters_.output.field_interval > 0) || now(next_fields_)) write_fields(time_);
     plan_output(time_);
 }

@@ -28,6 +28,11 @@ class TimeLoop {
     double time_of_budding(double before, double tau, Observables& at_event) const;
     void check_clearance() const;
     void write_due_output();
+    /// Shapes that are due before a time within the last step.
+    void write_shapes_before(double time);
+    /// Unless there is one of this time already.
+    void write_shape(double time, const MembraneCurve& curve);
+    [[nodiscard]] double shape_after(double time) const;
     /// The next shapes and fields are the first multiples of their intervals after `time`.
     void plan_output(double time);
     void write_fields(double time);
@@ -44,7 +49,7 @@ class TimeLoop {
     Contour contour_;
     Observables observables_{};
     double time_ = 0, last_energy_ = 0, last_loss_ = 0;
-    double next_shape_ = 0, next_fields_ = 0;  // when they are due [µs]
+    double last_shape_ = 0, next_shape_ = 0, next_fields_ = 0;  // when they are due [µs]
     double checkpoints_written_ = 0;
     std::vector<double> field_times_;
     std::optional<double> neck_radius_, budding_time_;

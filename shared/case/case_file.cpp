@@ -6,6 +6,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <optional>
 #include <set>
@@ -96,9 +97,13 @@ ParameterValue override_value(const std::string& text, const std::string& name, 
             const toml::table parsed = toml::parse("value = " + text);
             return value_of(*parsed.get("value"), name, where);
         } catch (const toml::parse_error&) {
-            // Not TOML: a bare word such as consistent, taken as a string below.
+            // Not TOML: a bare word such as consistent, or a number such as .5, which TOML wants written 0.5.
         }
     }
+    double number = 0;
+    const char *begin = text.c_str() + (text.starts_with('+') ? 1 : 0), *end = text.c_str() + text.size();
+    if (const auto [rest, error] = std::from_chars(begin, end, number); error == std::errc() && rest == end)
+        return number;
     return text;
 }
 

@@ -22,6 +22,12 @@ std::string format_duration(double seconds) {
     return fmt::format("{}:{:02d}:{:02d}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
+std::string live_text(const HistoryRow& row, double end_time_us, double seconds_left) {
+    const std::string neck = row.neck_radius_nm ? fmt::format("{:.4g} nm", *row.neck_radius_nm) : "-";
+    return fmt::format("t {:.4g}/{:.4g} µs  step {:.1e}  neck {}  strain {:.0e}  left {}", row.time_us,
+                       end_time_us, row.step_us, neck, row.area_strain_max, format_duration(seconds_left));
+}
+
 LiveLine::LiveLine(std::FILE* stream, double start_time_us, double end_time_us)
     : stream_(stream),
       terminal_(isatty(fileno(stream)) != 0 && isatty(STDERR_FILENO) != 0),
@@ -37,11 +43,8 @@ void LiveLine::update(const HistoryRow& row) {
     last_shown_ = now;
     const double elapsed = std::chrono::duration<double>(now - begin_).count();
     const double done = (row.time_us - start_time_us_) / (end_time_us_ - start_time_us_);
-    const std::string neck = row.neck_radius_nm ? fmt::format("{:.2f} nm", *row.neck_radius_nm) : "-";
     const std::string line =
-        fmt::format("t = {:.5g} of {:g} µs   step {:.3g} µs   neck {}   height {:.2f} nm   strain {:.1e}   left {}",
-                    row.time_us, end_time_us_, row.step_us, neck, row.bud_height_nm, row.area_strain_max,
-                    format_duration(done < least_progress_to_extrapolate ? NAN : elapsed * (1 - done) / done));
+        live_text(row, end_time_us_, done < least_progress_to_extrapolate ? NAN : elapsed * (1 - done) / done);
     if (terminal_)
         fmt::print(stream_, "\r\x1b[K{}", line);
     else

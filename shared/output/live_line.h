@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <string>
 
 #include "shared/output/history_file.h"
 
@@ -28,6 +29,9 @@ class LiveLine {
     Clock::time_point last_shown_;
     bool open_ = false;
 };
+
+/// The line for a row, of at most 79 columns: a longer one would wrap on a terminal of 80 and could not be rewritten.
+[[nodiscard]] std::string live_text(const HistoryRow& row, double end_time_us, double seconds_left);
 
 /// "0:42", "12:07", "3:05:00"; "?" for what cannot be known.
 [[nodiscard]] std::string format_duration(double seconds);

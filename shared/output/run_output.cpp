@@ -7,10 +7,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <mutex>
 
 #include "shared/output/atomic_file.h"
 #include "shared/output/live_line.h"
 #include "shared/output/output_times.h"
+#include "shared/output/restart_point.h"
 #include "shared/output/run_directory.h"
 #include "shared/output/run_lock.h"
 #include "shared/output/shapes_file.h"
@@ -20,13 +23,20 @@ namespace endoflow {
 
 namespace {
 
-constexpr const char* record_in_checkpoint = "run_record";
-constexpr const char* rows_in_checkpoint = "history_rows";
-constexpr const char* shapes_in_checkpoint = "shapes";
-constexpr std::uintmax_t largest_record = std::uintmax_t{1} << 26;
-
 double wall_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// For a disk that takes no new file: the state in a run.json that says "running" is replaced in its place.
+void overwrite_state(const std::filesystem::path& file, const std::string& state) {
+    const std::string running = "\"running\"", text = read_file(file, largest_record);
+    const auto place = text.find(running, text.find("\"state\""));
+    std::string word = "\"" + state + "\"";
+    if (place == std::string::npos || word.size() > running.size()) return;
+    word.resize(running.size(), ' ');
+    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekp(static_cast<std::streamoff>(place));
+    stream << word << std::flush;
 }
 
 std::shared_ptr<spdlog::logger> open_log(const std::filesystem::path& file) {
@@ -74,7 +84,10 @@ struct RunOutput::Implementation {
     double wall_before = 0;  // s, of the parts of this run before a restart
     double cpu_before = 0;
     double last_checkpoint = wall_seconds();
-    int shapes_saved = 0;  // in the copy beside the checkpoint
+    int checkpoints = 0;
+    std::mutex saving;                 // of run.json
+    std::string words_if_interrupted;  // run.json as of the last checkpoint
+    int shapes_saved = 0;              // in the copy beside the checkpoint
     std::shared_ptr<spdlog::logger> log;
     std::unique_ptr<HistoryFile> history;
     std::unique_ptr<ShapesFile> shapes;
@@ -89,79 +102,19 @@ struct RunOutput::Implementation {
         shapes = std::make_unique<ShapesFile>(directory.shapes());
     }
 
-    void read_restart_point() {
-        restart_point = read_checkpoint_file(directory.checkpoint());
-        if (!restart_point)
-            throw IoError(directory.checkpoint().string() + ": holds no checkpoint; run without --restart");
-        record = parse_record(restart_point->text(record_in_checkpoint), directory.checkpoint().string());
-    }
-
-    /// Everything that can be wrong with a restart is found here, and nothing is changed.
     void prepare_restart() {
         directory.require_run();
         lock = std::make_unique<RunLock>(directory);
-        read_restart_point();
-        require_same_problem();
-        kept_history = read_kept_history(directory.history(), engine.history_columns, restart_point->time_us,
-                                         expected(rows_in_checkpoint));
-        kept_shapes = choose_shapes();
-        reached = std::max(restart_point->time_us, kept_history.reached);
-        nothing_to_do = has_reached(parameters.time.end);
+        take(read_restart_point(directory, parameters, engine));
     }
 
-    void require_same_problem() const {
-        try {
-            require_continuable(record, parameters, engine, directory.root.string());
-        } catch (const RunRecord::exception& failure) {
-            throw incomplete(failure);
-        }
-    }
-
-    [[nodiscard]] IoError incomplete(const RunRecord::exception& failure) const {
-        return IoError(fmt::format("{}: not a complete run record: {}; run without --restart",
-                                   directory.checkpoint().string(), failure.what()));
-    }
-
-    [[nodiscard]] std::optional<long> expected(const char* count) const {
-        if (!restart_point->scalars.contains(count)) return std::nullopt;
-        return std::lround(restart_point->scalar(count));
-    }
-
-    /// A run that was killed may have written the row of its end, but not yet its last shape.
-    [[nodiscard]] bool has_reached(double end) const {
-        if (end <= restart_point->time_us * (1 + same_time)) return true;
-        const bool complete = ended_in_order(last_words());
-        return complete ? end <= reached * (1 + same_time) : end < reached * (1 - same_time);
-    }
-
-    /// run.json is newer than the record in the checkpoint, but need not be whole.
-    [[nodiscard]] RunRecord last_words() const {
-        try {
-            return parse_record(read_file(directory.record(), largest_record), directory.record().string());
-        } catch (const IoError&) {
-            return record;
-        }
-    }
-
-    /// The file with all shapes up to the checkpoint. A run that was killed may leave a shapes.h5 that was being
-    /// written; the copy beside the checkpoint is whole, unless the disk damaged it.
-    [[nodiscard]] std::filesystem::path choose_shapes() const {
-        std::optional<IoError> failure;
-        for (const auto& file : {directory.shapes_at_checkpoint(), directory.shapes()}) {
-            try {
-                const int count = count_shapes(file, restart_point->time_us);
-                if (const auto wanted = expected(shapes_in_checkpoint); !wanted || count == *wanted) return file;
-                if (!failure)
-                    failure.emplace(fmt::format("{}: holds {} shapes up to t = {} µs, not all of the run",
-                                                file.string(), count, restart_point->time_us));
-            } catch (const IoError& error) {
-                if (!failure) failure = error;
-            }
-        }
-        throw IoError(
-            fmt::format("{}; {} does not have all shapes either; restore one of them or run without "
-                        "--restart",
-                        failure->what(), directory.shapes().string()));
+    void take(RestartPoint point) {
+        restart_point = std::move(point.checkpoint);
+        record = std::move(point.record);
+        kept_history = std::move(point.history);
+        kept_shapes = std::move(point.shapes);
+        reached = point.reached_us;
+        nothing_to_do = point.nothing_to_do;
     }
 
     void continue_run() {
@@ -171,7 +124,7 @@ struct RunOutput::Implementation {
             cpu_before = record.at("cpu_s").get<double>();
             begin_segment(record, parameters, engine, restart_point->time_us);
         } catch (const RunRecord::exception& failure) {
-            throw incomplete(failure);
+            throw incomplete_record(directory, failure);
         }
         history = std::make_unique<HistoryFile>(directory.history(), engine.history_columns, std::move(kept_history));
         record["steps"]["accepted"] = history->rows();
@@ -181,7 +134,7 @@ struct RunOutput::Implementation {
 
     void observe(StartMode mode) {
         if (mode == StartMode::restart)
-            read_restart_point();
+            take(read_checkpoint(directory));
         else
             record = new_record(parameters, engine);
     }
@@ -224,7 +177,27 @@ struct RunOutput::Implementation {
     void save_record() {
         record["wall_s"] = wall();
         record["cpu_s"] = cpu_before + cpu_seconds();
+        const std::lock_guard<std::mutex> guard(saving);
         write_file_atomically(directory.record(), record.dump(2) + "\n");
+    }
+
+    /// Checkpoints cost the time that engines measure under this name.
+    [[nodiscard]] double seconds_between_checkpoints() const {
+        constexpr double first_seconds = 2, part_of_time = 0.01;
+        const auto phase = record["phases"].find("checkpoint");
+        const double spent = phase == record["phases"].end() ? 0 : phase->at("wall_s").get<double>();
+        const double each = checkpoints == 0 ? 0 : spent / checkpoints;
+        return std::min(parameters.output.checkpoint_interval, std::max(first_seconds, each / part_of_time));
+    }
+
+    /// How far the run got and where its results are; `how` begins the line.
+    void tell(const std::string& how) const {
+        const std::string when = engine.row_order == RowOrder::in_time
+                                     ? fmt::format(" at t = {:.6g} µs", record["time_us"].get<double>())
+                                     : "";
+        fmt::print("{}{}; results in {}{}\n", how, when, directory.root.string(),
+                   engine.row_order == RowOrder::in_time ? "; continue with --restart" : "");
+        std::fflush(stdout);
     }
 
     void end(const std::string& state, const std::string& reason) {
@@ -233,7 +206,12 @@ struct RunOutput::Implementation {
         record["exit_reason"] = reason;
         record["ended"] = utc_now();
         log->info("{}: {}", state, reason);
-        save_record();
+        try {
+            save_record();
+        } catch (const IoError&) {
+            overwrite_state(directory.record(), state);
+            throw;
+        }
     }
 };
 
@@ -340,7 +318,8 @@ void RunOutput::log_warning(const std::string& message) {
 }
 
 bool RunOutput::checkpoint_due() const {
-    return wall_seconds() - implementation_->last_checkpoint > implementation_->parameters.output.checkpoint_interval;
+    const auto& self = *implementation_;
+    return self.role == OutputRole::owner && wall_seconds() - self.last_checkpoint > self.seconds_between_checkpoints();
 }
 
 void RunOutput::write_checkpoint(const Checkpoint& checkpoint) {
@@ -349,16 +328,38 @@ void RunOutput::write_checkpoint(const Checkpoint& checkpoint) {
     self.save_record();
     self.save_series();
     Checkpoint complete = checkpoint;
-    complete.scalars[rows_in_checkpoint] = static_cast<double>(self.history->rows_until(checkpoint.time_us));
-    complete.scalars[shapes_in_checkpoint] = self.shapes->count_until(checkpoint.time_us);
-    complete.texts[record_in_checkpoint] = self.record.dump();
+    complete.scalars[checkpoint_entry::rows] = static_cast<double>(self.history->rows_until(checkpoint.time_us));
+    complete.scalars[checkpoint_entry::shapes] = self.shapes->count_until(checkpoint.time_us);
+    complete.texts[checkpoint_entry::record] = self.record.dump();
     write_checkpoint_file(self.directory.checkpoint(), complete);
     self.last_checkpoint = wall_seconds();
+    ++self.checkpoints;
+    RunRecord interrupted = self.record;
+    interrupted["state"] = "interrupted";
+    interrupted["exit_reason"] = to_string(ExitReason::interrupted);
+    const std::lock_guard<std::mutex> guard(self.saving);
+    self.words_if_interrupted = interrupted.dump(2) + "\n";
 }
 
 void RunOutput::finish(ExitReason reason) {
     if (implementation_->role == OutputRole::observer) return;
-    implementation_->end(reason == ExitReason::interrupted ? "interrupted" : "finished", to_string(reason));
+    const bool interrupted = reason == ExitReason::interrupted;
+    implementation_->end(interrupted ? "interrupted" : "finished", to_string(reason));
+    implementation_->tell(interrupted                  ? "interrupted, checkpoint written,"
+                          : reason == ExitReason::done ? "finished"
+                                                       : "ended: " + to_string(reason) + ",");
+}
+
+void RunOutput::leave_interrupted() {
+    auto& self = *implementation_;
+    if (self.role == OutputRole::observer) return;
+    const std::lock_guard<std::mutex> guard(self.saving);
+    if (!self.words_if_interrupted.empty()) write_file_atomically(self.directory.record(), self.words_if_interrupted);
+    fmt::print("\ninterrupted within a step, {}; results in {}\n",
+               self.words_if_interrupted.empty() ? "before the first checkpoint"
+                                                 : "continue from the last checkpoint with --restart",
+               self.directory.root.string());
+    std::fflush(stdout);
 }
 
 void RunOutput::finish_with_error(const std::string& message) {

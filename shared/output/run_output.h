@@ -77,12 +77,16 @@ class RunOutput {
     void log_info(const std::string& message);
     void log_warning(const std::string& message);
 
-    /// True when output.checkpoint_interval of wall time has passed since the last checkpoint.
+    /// True when output.checkpoint_interval of wall time has passed since the last checkpoint; earlier when checkpoints
+    /// cost less than 1 % of the time between them, so that a kill costs seconds.
     [[nodiscard]] bool checkpoint_due() const;
     void write_checkpoint(const Checkpoint& checkpoint);
 
-    /// The last word of a run that ended well or was interrupted.
+    /// The last word of a run that ended well or was interrupted; prints how far it got and where its results are.
     void finish(ExitReason reason);
+    /// The last word of a run that cannot reach its next checkpoint before it is killed: run.json as of the last one,
+    /// with the state "interrupted". Any thread may call it while another one computes; the process ends after it.
+    void leave_interrupted();
     /// The last word of a run that a failure ended; the message goes to log.txt and run.json.
     void finish_with_error(const std::string& message);
 

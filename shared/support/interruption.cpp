@@ -21,6 +21,7 @@ void remember_signal(int signal_number) {
 void install_signal_handlers() {
     std::signal(SIGINT, remember_signal);
     std::signal(SIGTERM, remember_signal);
+    std::signal(SIGHUP, remember_signal);
     std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit of ulimit -f: the write fails and is reported
 }
 

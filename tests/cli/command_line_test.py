@@ -142,6 +142,24 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(softer.stdout.splitlines()[1].split(",")[1], "50")
         self.assert_refused(endoflow("laws", self.root / "none.toml"), 2, "none.toml")
 
+    def test_help_of_commands(self):
+        for words in (["help", "run"], ["run", "--help"]):
+            for option in ("--restart", "--until", "--set", "--output"):
+                self.assertIn(option, endoflow(*words).stdout)
+        self.assertEqual(endoflow("help").stdout, endoflow("--help").stdout)
+        self.assertIn("--json", endoflow("help", "check").stdout)
+        self.assert_refused(endoflow("help", "rnu"), 2, "did you mean 'run'")
+
+    def test_numbers_on_the_command_line(self):
+        for text, value in ((".5", 0.5), ("+.5e1", 5.0), ("2.", 2.0)):
+            result = endoflow("check", self.case(""), "--set", f"time.end={text}", "--set", "time.max_step=0.1", "--json")
+            self.assertEqual(json.loads(result.stdout)["time"]["end"], value)
+
+    def test_output_that_nobody_takes(self):
+        with open("/dev/full", "w") as full:
+            result = subprocess.run([PROGRAM, "params"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assert_refused(result, 4, "No space left on device")
+
     def test_summary_of_nothing(self):
         self.assert_refused(endoflow("summary", self.root), 4, "run.json")
         (self.root / "run.json").write_text("{")
@@ -156,6 +174,7 @@ class CommandLine(unittest.TestCase):
         self.assertAlmostEqual(record["time_us"], 0.0002, delta=1e-12)
         for name in ("history.csv", "shapes.h5", "log.txt", "checkpoint/state.h5"):
             self.assertTrue((output / name).exists(), name)
+        self.assertIn(f"finished at t = 0.0002 µs; results in {output}; continue with --restart", result.stdout)
         summary = endoflow("summary", output)
         self.assertEqual(summary.returncode, 0, summary.stderr)
         self.assertRegex(summary.stdout, r"\n  membrane area +2010\d nm²\n")
@@ -185,19 +204,20 @@ class CommandLine(unittest.TestCase):
             self.assertIn(line, endoflow("summary", output).stdout)
 
     def test_interruption_leaves_a_checkpoint_to_restart_from(self):
-        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)):
             with self.subTest(code):
                 output = self.root / str(code)
                 case = self.case("[time]\nend = 5\n")
                 run = subprocess.Popen([PROGRAM, "run", "boundary-integral", case, "-o", output],
-                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
                 history = output / "history.csv"
                 for _ in range(600):
                     if history.exists() and history.read_text().count("\n") > 3:
                         break
                     time.sleep(0.1)
                 run.send_signal(number)
-                run.communicate(timeout=1200)
+                told, _ = run.communicate(timeout=1200)
+                self.assertIn("interrupted, checkpoint written, at t = ", told)
                 self.assertEqual(run.returncode, code)
                 reached = json.loads((output / "run.json").read_text())["time_us"]
                 result = endoflow("run", "boundary-integral", case, "-o", output, "--restart", "--until",

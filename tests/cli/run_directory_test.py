@@ -7,12 +7,16 @@ import fcntl
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
 from pathlib import Path
+
+import h5py
+import numpy as np
 
 PROGRAM = None
 
@@ -133,6 +137,24 @@ class BoundaryIntegral(AnyEngine, unittest.TestCase):
             self.assertEqual(summary.count(f"alarm: {alarm['name']} at t = "), 1)
             self.assertIn("boundary_integral.elements", alarm["remedy"])
 
+    def test_shapes_at_the_end_and_early(self):
+        """A run shorter than output.shape_interval shows how the membrane moved."""
+        self.assertEqual(self.run_with("time.end=0.01").returncode, 0)
+        with h5py.File(self.directory / "shapes.h5") as file:
+            times = [float(shape.attrs["time"]) for shape in file["shapes"].values()]
+        np.testing.assert_allclose(times, [0, *0.05 / 2.0 ** np.arange(8, 2, -1), 0.01], rtol=1e-12)
+
+    def test_shape_at_the_event(self):
+        """The last shape of a run that ends at budding is the one with a neck of 5 nm."""
+        result = self.run_with("output.stop_at_budding=true", "molecules.interface_width=5", "time.end=5")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        event = json.loads((self.directory / "run.json").read_text())["events"]["budding"]
+        with h5py.File(self.directory / "shapes.h5") as file:
+            times = [float(shape.attrs["time"]) for shape in file["shapes"].values()]
+        self.assertEqual(times[-1], event["time_us"])
+        self.assertEqual(times, sorted(set(times)))
+        self.assertAlmostEqual(event["neck_radius_nm"], 5, delta=1e-6)
+
     def test_several_processes_are_refused(self):
         """mpirun, MPICH's and Slurm's launchers tell by the environment how many there are."""
         for variable in ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"):
@@ -149,6 +171,25 @@ class BoundaryIntegral(AnyEngine, unittest.TestCase):
 class PhaseField(AnyEngine, unittest.TestCase):
     engine = "phase-field"
     own_setting = ("phase_field.epsilon", "5")
+
+    def test_signals_to_mpirun(self):
+        """It kills its processes soon after, in the middle of a step: run.json has a last word, and the run goes on."""
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number):
+                shutil.rmtree(self.directory, ignore_errors=True)
+                words = self.words(self.directory, "time.end=5", "output.checkpoint_interval=0")
+                process = subprocess.Popen(["mpirun", "-n", "2", "--oversubscribe", *words], stdout=subprocess.PIPE,
+                                           stderr=subprocess.PIPE, text=True)
+                while process.poll() is None and not (self.directory / "checkpoint" / "state.h5").exists():
+                    time.sleep(0.05)
+                process.send_signal(number)
+                told, errors = process.communicate(timeout=1200)
+                self.assertIn("interrupted", told, errors)
+                self.assertEqual(json.loads((self.directory / "run.json").read_text())["state"], "interrupted")
+                rows = (self.directory / "history.csv").read_text().splitlines()
+                end = 1.2 * float(rows[-1].split(",")[0])
+                result = self.run_with(f"time.end={end:.17g}", restart=True)
+                self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_several_processes_and_a_directory_in_use(self):
         """The first process owns the lock; all end when it does not get it, and when there is nothing to do."""

@@ -3,6 +3,7 @@
     python3 tests/reliability/test_trouble.py build/endoflow [BoundaryIntegral] [PhaseField]
 """
 
+import json
 import os
 import resource
 import shutil
@@ -123,6 +124,14 @@ class AnyEngine:
         self.assert_io_error(self.start(), str(self.directory), "not a writable directory")
         self.assertEqual(list(self.directory.iterdir()), [])
 
+    def test_last_word_on_a_full_disk(self):
+        """run.json does not go on saying that the run is at work."""
+        process = self.start("time.end=5")
+        self.wait_for_checkpoints(process)
+        limit_files(process, 2000)
+        self.assert_io_error(process, str(self.directory))
+        self.assertEqual(json.loads((self.directory / "run.json").read_text())["state"], "failed")
+
     def test_directory_removed_while_running(self):
         process = self.start("time.end=5")
         self.wait_for_checkpoints(process)
@@ -167,7 +176,7 @@ class BoundaryIntegral(AnyEngine, unittest.TestCase):
             _, errors = process.communicate(timeout=1200)
         self.assertEqual((process.returncode, errors), (0, ""))
         with h5py.File(self.directory / "shapes.h5", "r") as file:
-            self.assertEqual(len(file["shapes"]), 21)
+            self.assertEqual(len(file["shapes"]), 21 + 8)  # and eight before the first multiple
 
     def test_shapes_of_a_continued_run_come_at_multiples_after_the_restart(self):
         """The restart is from where the integrator last started anew, 2e-5 µs or later."""
@@ -175,10 +184,13 @@ class BoundaryIntegral(AnyEngine, unittest.TestCase):
         _, errors = self.start("time.end=1e-4", often).communicate(timeout=1200)
         self.assertEqual(errors, "")
         self.assert_goes_on("time.end=1.6e-4", "output.shape_interval=2e-5", often)
-        times = self.shape_times()
-        first = round(times[1] / 2e-5)
+        with h5py.File(self.directory / "checkpoint" / "state.h5") as file:
+            self.assertGreater(file.attrs["time_us"], 2e-5)
+        segments = json.loads((self.directory / "run.json").read_text())["segments"]
+        later = [time for time in self.shape_times() if time > segments[-1]["begin_us"]]
+        first = round(later[0] / 2e-5)
         self.assertGreaterEqual(first, 2)
-        np.testing.assert_allclose(times, [0, *2e-5 * np.arange(first, 9)], rtol=1e-12)
+        np.testing.assert_allclose(later, 2e-5 * np.arange(first, 9), rtol=1e-12)
 
 
 class PhaseField(AnyEngine, unittest.TestCase):

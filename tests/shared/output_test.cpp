@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include "shared/output/checkpoint.h"
 #include "shared/output/hdf5_file.h"
 #include "shared/output/live_line.h"
+#include "shared/output/output_times.h"
 #include "shared/output/run_output.h"
 #include "shared/output/shapes_file.h"
 #include "shared/support/error.h"
@@ -185,4 +187,24 @@ TEST_CASE("durations read like a clock") {
     CHECK(format_duration(727) == "12:07");
     CHECK(format_duration(11100) == "3:05:00");
     CHECK(format_duration(NAN) == "?");
+}
+
+TEST_CASE("the live line fits a terminal of 80 columns, and mu is one of them") {
+    HistoryRow row = row_at(12.34567e-5);
+    row.step_us = 1.2345e-7;
+    row.neck_radius_nm = 12.345678;
+    row.area_strain_max = 1.2345e-10;
+    const std::string line = live_text(row, 123.45678, 35999);
+    CHECK(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; }) < 80);
+    CHECK_THAT(line, Contains("neck 12.35 nm") && Contains("left 9:59:59"));
+}
+
+TEST_CASE("shapes are due early, then at multiples, at the same times whatever the steps were") {
+    std::vector<double> times;
+    for (double time = 0; time < 0.2;) times.push_back(time = next_shape_time(0.1, time));
+    const std::vector<double> due{0.1 / 256, 0.1 / 128, 0.1 / 64, 0.1 / 32, 0.1 / 16,
+                                  0.1 / 8,   0.1 / 4,   0.1 / 2,  0.1,      0.2};
+    REQUIRE(times.size() == due.size());
+    for (std::size_t i = 0; i < due.size(); ++i) CHECK(times[i] == Approx(due[i]).epsilon(1e-12));
+    CHECK(next_shape_time(0.1, 0.06) == Approx(0.1));
 }
