@@ -4,7 +4,6 @@
 #include "command_line.h"
 #include "engine_run.h"
 #include "launcher.h"
-#include "shared/model/loads.h"
 #include "shared/output/run_output.h"
 #include "shared/support/interruption.h"
 
@@ -15,7 +14,6 @@ namespace {
 int run(int argc, char** argv) {
     const auto request = parse_run_request(argc, argv, "boundary-integral");
     if (!request) return 0;
-    require_no_loads(request->parameters, "boundary-integral");
     require_one_process("the boundary-integral engine", "; boundary_integral.threads shares its work out");
     install_signal_handlers();
     RunOutput output(request->parameters, boundary_integral::identity(request->parameters), request->directory,

@@ -29,7 +29,8 @@ std::vector<std::string> own_history_columns() {
             "area_balance_relative",
             "inflow_nm_per_us",
             "wall_distance_nm",
-            "integrator_order"};
+            "integrator_order",
+            "load_power_pN_nm_per_us"};
 }
 
 HistoryRecorder::HistoryRecorder(const Parameters& parameters, const MembraneDynamics& dynamics, RunOutput& output)
@@ -65,9 +66,16 @@ std::vector<double> HistoryRecorder::own_values(const Evaluation& evaluation, co
                                                 int order) const {
     const FlowBalances flow = balances(dynamics_, evaluation);
     const EnergyBalance energy = energy_balance(dynamics_, evaluation);
-    return {
-        energy.dissipated_power, energy.energy_rate,  energy.residual(),         flow.force, flow.net_flux, flow.area,
-        evaluation.flow.inflow,  shape.wall_distance, static_cast<double>(order)};
+    return {energy.dissipated_power,
+            energy.energy_rate,
+            energy.residual(),
+            flow.force,
+            flow.net_flux,
+            flow.area,
+            evaluation.flow.inflow,
+            shape.wall_distance,
+            static_cast<double>(order),
+            energy.external_power};
 }
 
 void HistoryRecorder::save(Checkpoint& checkpoint) const {

@@ -24,6 +24,7 @@ MembraneDynamics::MembraneDynamics(const Parameters& parameters)
              parameters.domain.kind == DomainKind::box ? CurveEnd::clamped : CurveEnd::closed),
       model_(parameters.membrane),
       energy_(membrane_energy(parameters)),
+      loads_(loads_of(parameters)),
       transport_(transport_law(parameters.molecules)),
       flow_(make_flow(parameters, space_)),
       mesh_(space_,
@@ -109,7 +110,8 @@ Evaluation MembraneDynamics::evaluate(const Eigen::VectorXd& y,
         {},    {}};
     const double rim_energy_density =
         space_.end() == CurveEnd::clamped ? energy_density_at_rim(space_, state, energy_) : 0.0;
-    e.flow = flow_->solve(*e.operators, e.samples, e.energy, rim_energy_density);
+    const Eigen::VectorXd external = loads_.none() ? Eigen::VectorXd() : external_load(space_, samples, loads_);
+    e.flow = flow_->solve(*e.operators, e.samples, e.energy, rim_energy_density, external);
     const Eigen::VectorXd tangential = mesh_.tangential_velocity(state, samples, e.flow.velocity, e.flow.inflow);
     e.mesh_velocity = e.flow.velocity + tangential;
     const Eigen::VectorXd t_r = tangential.head(space_.radial_count());
@@ -129,11 +131,14 @@ Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
     const Index curve = free_radial() + free_axial();
     const Index moments = space_.axial_count();
     const VelocityFreedoms& freedoms = e.operators->freedoms;
-    const EnergyDerivatives second =
-        energy_derivatives(space_, e.state, energy_, Derivatives::second, e.flow.multipliers);
+    Multipliers multipliers = e.flow.multipliers;
+    multipliers.pressure -= loads_.pressure;
+    const EnergyDerivatives second = energy_derivatives(space_, e.state, energy_, Derivatives::second, multipliers);
 
     // Velocity freedoms: delta u = Y delta load with B delta u = - delta B u.
     Eigen::MatrixXd load_curve = -freedoms.restrict_rows(pack_columns(second.hessian));
+    if (loads_.pole_force != 0.0)
+        load_curve += freedoms.restrict_rows(pack_columns(pole_force_variation(space_, e.samples, loads_)));
     Eigen::MatrixXd load_c = -freedoms.restrict_rows(second.mixed);
     Eigen::MatrixXd velocity_curve = e.operators->mobility * load_curve;
     Eigen::MatrixXd velocity_c = e.operators->mobility * load_c;

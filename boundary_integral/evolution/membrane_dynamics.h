@@ -10,6 +10,7 @@
 #include "boundary_integral/flow/box_flow.h"
 #include "boundary_integral/flow/flow_model.h"
 #include "boundary_integral/membrane/energy.h"
+#include "boundary_integral/membrane/external_loads.h"
 #include "boundary_integral/transport/surface_transport.h"
 #include "shared/model/bending_model.h"
 #include "shared/parameters/parameters.h"
@@ -62,6 +63,7 @@ class MembraneDynamics {
     MembraneSpace space_;
     BendingModel model_;
     MembraneEnergy energy_;
+    Loads loads_;
     TransportLaw transport_;
     std::unique_ptr<FlowModel> flow_;
     MeshMotion mesh_;

@@ -90,7 +90,8 @@ ShapeIntegrals shape_integrals(const MembraneSpace& space, const MembraneState& 
 
 double EnergyBalance::residual() const {
     constexpr double slowest = 1e-9;  // 1/us: what changes the energy more slowly is a membrane at rest
-    return std::abs(energy_rate + dissipated_power - diffusive_power) / (std::abs(dissipated_power) + slowest * energy);
+    return std::abs(energy_rate + dissipated_power - diffusive_power - external_power) /
+           (std::abs(dissipated_power) + slowest * energy);
 }
 
 EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& e) {
@@ -120,6 +121,7 @@ EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation&
     balance.energy_rate = two_pi * (e.energy.gradient.dot(e.mesh_velocity) + e.energy.gradient_c.dot(c_rate));
     balance.diffusive_power = two_pi * e.energy.gradient_c.dot(c_rate - c_carried);
     balance.dissipated_power = e.flow.power;
+    balance.external_power = e.flow.external_power;
     return balance;
 }
 

@@ -36,6 +36,7 @@ struct EnergyBalance {
     double energy_rate;       // dE/dt, pN nm/us
     double dissipated_power;  // int f.u dA, pN nm/us
     double diffusive_power;   // dE/dt by diffusion of c, pN nm/us
+    double external_power;    // of the loads, pN nm/us
     double residual() const;  // relative
 };
 EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& evaluation);

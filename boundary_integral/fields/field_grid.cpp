@@ -35,10 +35,11 @@ QuadGrid field_grid(const Parameters& parameters, const MembraneDynamics& dynami
             for (std::size_t i = 0; i < columns; ++i) {
                 const FieldValue value = field.at({grid.x[i], grid.y[j]}, margin_in_spacings * spacing);
                 const std::size_t point = j * columns + i;
+                const bool outside = value.phase == Phase::extracellular;  // of the cell
                 velocity[3 * point] = value.u_r;
                 velocity[3 * point + 1] = value.u_z;
-                pressure[point] = value.pressure;
-                phi[point] = value.phase == Phase::extracellular ? 1.0 : -1.0;
+                pressure[point] = value.pressure + (outside ? parameters.fluid.pressure_difference : 0.0);
+                phi[point] = outside ? 1.0 : -1.0;
             }
         }
     });

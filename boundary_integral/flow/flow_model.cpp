@@ -63,7 +63,8 @@ Eigen::MatrixXd FlowModel::constraint_variation(const MembraneSamples& samples, 
 }
 
 FlowSolution FlowModel::solve(const MobilityOperators& operators, const MembraneSamples& samples,
-                              const EnergyDerivatives& energy, double rim_energy_density) const {
+                              const EnergyDerivatives& energy, double rim_energy_density,
+                              const Eigen::VectorXd& external) const {
     const VelocityFreedoms& freedoms = operators.freedoms;
     FlowSolution flow;
     // <f, w> = -dE(w) - int lambda div_Gamma w for all w. Membrane that flows in through the rim is no change of
@@ -71,6 +72,7 @@ FlowSolution FlowModel::solve(const MobilityOperators& operators, const Membrane
     Eigen::VectorXd gradient = freedoms.restrict_rows(energy.gradient);
     if (freedoms.inflow) gradient[space_.radial_count() - 1] -= samples.rim_radius * rim_energy_density;
     flow.load = -gradient;
+    if (external.size() > 0) flow.load += freedoms.restrict_rows(external);
     flow.multipliers.tension = Eigen::VectorXd::Zero(space_.tension().dimension());
     if (constrained()) {
         const Eigen::MatrixXd constraint = constraint_matrix(samples, freedoms);
@@ -85,6 +87,7 @@ FlowSolution FlowModel::solve(const MobilityOperators& operators, const Membrane
     flow.velocity = freedoms.expand(velocity);
     flow.inflow = freedoms.through_rim(velocity);
     flow.power = 2.0 * std::numbers::pi * flow.load.dot(velocity);
+    if (external.size() > 0) flow.external_power = 2.0 * std::numbers::pi * external.dot(flow.velocity);
     return flow;
 }
 

@@ -45,12 +45,13 @@ struct MobilityOperators {
 };
 
 struct FlowSolution {
-    Eigen::VectorXd velocity;  // curve_count coefficients (u_r, u_z), nm/us
-    Eigen::VectorXd force;     // force_count coefficients of f, pN/nm^2
-    Multipliers multipliers;   // tension; pressure of a closed membrane
-    Eigen::VectorXd load;      // freedoms: -(dE - inflow) - B^T multipliers, pN per 2 pi
-    double inflow = 0.0;       // u_r(rim), nm/us
-    double power = 0.0;        // load . velocity = int f.u dA, pN nm/us
+    Eigen::VectorXd velocity;     // curve_count coefficients (u_r, u_z), nm/us
+    Eigen::VectorXd force;        // force_count coefficients of f, pN/nm^2
+    Multipliers multipliers;      // tension; pressure of a closed membrane
+    Eigen::VectorXd load;         // freedoms: -(dE - inflow) + external - B^T multipliers, pN per 2 pi
+    double inflow = 0.0;          // u_r(rim), nm/us
+    double power = 0.0;           // load . velocity = int f.u dA, pN nm/us
+    double external_power = 0.0;  // of the external load, pN nm/us
 };
 
 // What every velocity must leave as it is.
@@ -68,9 +69,11 @@ class FlowModel {
 
     virtual MobilityOperators operators(const MembraneState& state, const MembraneSamples& samples) const = 0;
 
-    // Velocity, force density and tension under the membrane's own elastic force.
+    // Velocity, force density and tension under the membrane's own elastic force and an external load (curve_count,
+    // pN per 2 pi; empty: none).
     FlowSolution solve(const MobilityOperators& operators, const MembraneSamples& samples,
-                       const EnergyDerivatives& energy, double rim_energy_density) const;
+                       const EnergyDerivatives& energy, double rim_energy_density,
+                       const Eigen::VectorXd& external = {}) const;
 
     // B u = 0: weak surface divergence, then the volume. B's variation is at fixed u. Columns: freedoms of the
     // velocity, all curve coefficients.

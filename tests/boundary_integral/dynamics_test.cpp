@@ -4,15 +4,24 @@
 
 #include "boundary_integral/evolution/observation.h"
 #include "boundary_integral/flow/free_space_flow.h"
+#include "curves.h"
 
 namespace {
 
 using namespace endoflow;
 using namespace endoflow::boundary_integral;
+using endoflow::boundary_integral::testing::bulge;
 
 Parameters small_case() {
     Parameters parameters;
     parameters.boundary_integral.elements = 24;
+    return parameters;
+}
+
+Parameters with_loads(Parameters parameters) {
+    parameters.membrane.rim_tension = 0.05;
+    parameters.fluid.pressure_difference = 1e-3;
+    parameters.membrane.pole_force = 20;
     return parameters;
 }
 
@@ -52,9 +61,11 @@ TEST_CASE("the molecules' mass does not change", "[dynamics]") {
     CHECK(std::abs(rate.sum()) < 1e-12 * rate.cwiseAbs().sum());
 }
 
-TEST_CASE("the energy's rate is minus the dissipated power plus diffusion", "[dynamics]") {
-    const MembraneDynamics dynamics(small_case());
+TEST_CASE("the energy's rate is minus the dissipated power plus diffusion plus the loads' power", "[dynamics]") {
+    const bool loaded = GENERATE(false, true);
+    const MembraneDynamics dynamics(loaded ? with_loads(small_case()) : small_case());
     const EnergyBalance balance = energy_balance(dynamics, dynamics.evaluate(moved(dynamics)));
+    CHECK((balance.external_power != 0) == loaded);
     CHECK(balance.dissipated_power > 0);
     CHECK(balance.energy_rate < 0);
     CHECK(balance.residual() < 1e-4);  // mesh motion is no motion: interpolation error of the moving coat edge
@@ -69,7 +80,8 @@ TEST_CASE("the Jacobian is the derivative of the rate at fixed operators", "[dyn
     parameters.fluid.dynamics = dynamics_kind;
     parameters.domain.kind = domain_kind;
     parameters.membrane.inextensible = inextensible;
-    const MembraneDynamics dynamics(parameters);
+    const bool loaded = inextensible && domain_kind == DomainKind::box;
+    const MembraneDynamics dynamics(loaded ? with_loads(parameters) : parameters);
     // Off the initial state, where the mesh is at rest and many terms vanish.
     Eigen::VectorXd y = dynamics.initial_vector();
     for (int i = 0; i < 3; ++i) y += 1e-5 * dynamics.evaluate(y).rate.normalized();
@@ -145,4 +157,27 @@ TEST_CASE("a vesicle in free space keeps area and volume and has no net force", 
     CHECK(balances.force < 1e-12);
     CHECK(energy_balance(dynamics, e).residual() < 1e-9);
     CHECK(e.flow.power > 0);
+}
+
+TEST_CASE("the pole force adds up to F and rides on the material", "[dynamics][loads]") {
+    Parameters parameters = small_case();
+    parameters.membrane.pole_force = 20;
+    const Loads pole_alone = loads_of(parameters);
+    const MembraneSpace space(24, 8);
+    const MembraneState state = bulge(space, 25);
+    const Eigen::VectorXd load = external_load(space, sample(space, state), pole_alone);
+    const double total = load.tail(space.axial_count()).sum();         // the power of a unit motion upwards, over 2 pi
+    CHECK(2.0 * std::acos(-1.0) * total == Approx(20).epsilon(1e-6));  // the quadrature of the force's density
+    const Eigen::MatrixXd exact = pole_force_variation(space, sample(space, state), pole_alone);
+    Eigen::VectorXd direction(space.curve_count());
+    for (Index i = 0; i < direction.size(); ++i) direction[i] = std::sin(3.0 * static_cast<double>(i) + 1.0);
+    const auto displaced = [&](double amount) {
+        MembraneState moved = state;
+        moved.r += amount * direction.head(space.radial_count());
+        moved.z += amount * direction.tail(space.axial_count());
+        return external_load(space, sample(space, moved), pole_alone);
+    };
+    constexpr double step = 1e-5;
+    const Eigen::VectorXd difference = (displaced(step) - displaced(-step)) / (2.0 * step);
+    CHECK((exact * direction - difference).norm() < 1e-7 * difference.norm());
 }

@@ -8,6 +8,7 @@
 
 #include "boundary_integral/flow/box_flow.h"
 #include "boundary_integral/flow/free_space_flow.h"
+#include "boundary_integral/membrane/external_loads.h"
 #include "curves.h"
 #include "shared/geometry/observables.h"
 #include "statics/sampled_curve.h"
@@ -108,7 +109,8 @@ BudErrors errors_of(const statics::StationaryState& exact, Index elements) {
     const EnergyDerivatives energy = energy_derivatives(space, state, membrane_energy(parameters), Derivatives::first);
     const BoxFlow box(parameters, space);
     const FlowSolution flow = box.solve(box.operators(state, samples), samples, energy,
-                                        energy_density_at_rim(space, state, membrane_energy(parameters)));
+                                        energy_density_at_rim(space, state, membrane_energy(parameters)),
+                                        external_load(space, samples, loads_of(parameters)));
     double tension = 0, largest = 0;
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
         const double u = crowded_at(edge, space.xi[i]);
@@ -141,9 +143,14 @@ TEST_CASE("stationary vesicles rest in the engine, too", "[verification]") {
     CHECK(order(coarse.energy, fine.energy) > 5);
 }
 
-TEST_CASE("a stationary bud rests in the engine, too", "[verification]") {
+TEST_CASE("a stationary bud rests in the engine, too, with and without loads", "[verification]") {
     Parameters parameters;
     parameters.molecules.patch_radius = 22;
+    if (GENERATE(false, true)) {
+        parameters.membrane.rim_tension = 0.05;
+        parameters.fluid.pressure_difference = 1e-4;
+        parameters.membrane.pole_force = 5;
+    }
     const auto exact = statics::find_stationary_state(parameters);
     const BudErrors coarse = errors_of(exact, 60), fine = errors_of(exact, 120);
     CAPTURE(coarse.speed, fine.speed, coarse.inflow, fine.inflow, coarse.tension, fine.tension, coarse.energy,
