@@ -37,7 +37,7 @@ fs::path data_directory() {
 
 fs::path find_case(const fs::path& given) {
     const bool bare = given.has_filename() && !given.has_parent_path() && !given.has_extension();
-    if (!bare || fs::exists(given)) return given;
+    if (!bare || (fs::exists(given) && !fs::is_directory(given))) return given;
     const fs::path cases = data_directory() / "cases";
     if (fs::path file = cases / (given.string() + ".toml"); fs::exists(file)) return file;
     const auto known = case_names(cases);

@@ -77,6 +77,12 @@ class Run:
             shapes=[shape for shape in self.shapes if shape.time <= latest],
         )
 
+    def to_xarray(self, points=200):
+        """The run as an xarray.Dataset: every history column over `time`, and the shapes at `points` points each, with units."""
+        from .labelled import dataset
+
+        return dataset(self, points)
+
     def history_at(self, column, time):
         """A history column interpolated linearly at `time` (µs; number or array); nan outside the run and beside gaps."""
         return np.interp(time, self.history["time_us"], self.history[column], left=np.nan, right=np.nan)

@@ -1,0 +1,121 @@
+"""The program `endoflow`: where it is, how it is called, and its complaints as exceptions."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+from pathlib import Path
+from typing import Callable, Sequence
+
+from .errors import EndoflowError
+
+#: Seconds between two looks at a running program.
+POLL_INTERVAL = 0.1
+
+HOW_TO_GET_IT = (
+    "the program endoflow was not found: install its Debian package, or build it (make build) and put the build directory "
+    "into PATH or the program's path into the environment variable ENDOFLOW"
+)
+
+
+class ProgramError(EndoflowError):
+    """The program ended with an error; the message is its own. exit_code as documented for the command line."""
+
+    exit_code = 1
+
+    def __init__(self, message: str, exit_code: int | None = None):
+        super().__init__(message)
+        self.exit_code = self.exit_code if exit_code is None else exit_code
+
+
+class InputError(ProgramError):
+    """A bad case, setting or option."""
+
+    exit_code = 2
+
+
+class SolverError(ProgramError):
+    """The solver stopped: a step became too small, the membrane came too near to a wall, and the like."""
+
+    exit_code = 3
+
+
+class FileError(ProgramError):
+    """Something cannot be read or written."""
+
+    exit_code = 4
+
+
+#: The exceptions by exit code.
+ERRORS = {error.exit_code: error for error in (InputError, SolverError, FileError)}
+
+
+def program() -> Path:
+    """Path of the program: the environment variable ENDOFLOW, PATH, the installation or build directory beside this package.
+
+    Raises FileError that says how to get it.
+    """
+    chosen = os.environ.get("ENDOFLOW")
+    if chosen:
+        if not os.access(chosen, os.X_OK) or Path(chosen).is_dir():
+            raise FileError(f"ENDOFLOW={chosen}: no such program; give the path of the program endoflow")
+        return Path(chosen)
+    in_path = shutil.which("endoflow")
+    above = Path(__file__).resolve().parents
+    candidates = [Path(in_path)] if in_path else []
+    candidates += [above[2] / "build" / "endoflow", *(root / "bin" / "endoflow" for root in above[4:5])]
+    for candidate in candidates:
+        if os.access(candidate, os.X_OK):
+            return candidate
+    raise FileError(HOW_TO_GET_IT)
+
+
+def call(arguments: Sequence[str], watch: Callable[[], None] | None = None, launcher: Sequence[str] = ()) -> None:
+    """Run `[launcher] endoflow ARGUMENTS` to its end, calling watch() now and then.
+
+    Raises the ProgramError of its exit code. A KeyboardInterrupt stops the program, which writes its checkpoint first, and
+    is raised again; a second one kills it.
+    """
+    command = [*launcher, str(program()), *arguments]
+    with tempfile.TemporaryFile() as errors:
+        # In a session of its own: Ctrl-C reaches it through us alone.
+        process = subprocess.Popen(
+            command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors, start_new_session=True
+        )
+        try:
+            while True:
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    process.wait(POLL_INTERVAL)
+                    break
+                if watch is not None:
+                    watch()
+        except BaseException:
+            _stop(process)
+            raise
+        if watch is not None:
+            watch()
+        if process.returncode:
+            errors.seek(0)
+            raise _error(errors.read().decode("utf-8", "replace"), process.returncode)
+
+
+def _stop(process: subprocess.Popen) -> None:
+    """Interrupt the program and wait for its end; kill it when that is interrupted too."""
+    try:
+        process.send_signal(signal.SIGINT)
+        process.wait()
+    except BaseException:
+        process.kill()
+        process.wait()
+        raise
+
+
+def _error(text: str, code: int) -> ProgramError:
+    """The exception of an exit code; its message is the program's last line, without its name in front."""
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    message = lines[-1].removeprefix("endoflow: ") if lines else f"endoflow ended with exit code {code}"
+    return ERRORS[code](message) if code in ERRORS else ProgramError(message, code)
