@@ -131,13 +131,13 @@ def patch_sweep(bench):
 def phase_field_schemes(bench):
     """The standard case by both phase-field schemes on one process, one run each: CPU time of `production` up to several
     times, and of `paper` to 0.5 µs, when the mesh has grown, and from there on by the mean of the last fifth of its
-    steps, of which it takes at least one per `phase_field.max_step`, 2 ns."""
+    steps, of which it takes at least one per `phase_field.paper.max_step`, 2 ns."""
     if not (bench.build / "endoflow-phase-field").exists():
         return {"skipped": "endoflow was built without the phase-field engine (ENDOFLOW_PHASEFIELD=OFF)"}
     times, paper_end = ((0.001,), 0.0005) if bench.quick else ((1, 3, 20), 0.5)
     paper = bench.run("phase-field", PAPER_RUN, "phase_field.scheme=paper", f"time.end={paper_end}", NO_FIELDS)
     per_step = late_step_cost(bench.directory(PAPER_RUN) / "history.csv", cpu_per_wall(paper))
-    longest_step = paper["parameters"]["phase_field"]["max_step"]
+    longest_step = paper["parameters"]["phase_field"]["paper"]["max_step"]
     production = bench.run("phase-field", PRODUCTION_RUN, f"time.end={times[-1]}", NO_FIELDS)
     history = bench.directory(PRODUCTION_RUN) / "history.csv"
 

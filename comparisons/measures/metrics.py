@@ -220,12 +220,11 @@ def _largest_relative(records, name):
 
 
 def flat_parameters(parameters):
-    """{"section.key": value} of parameters by section; a top-level value keeps its name."""
+    """{"section.key": value} of parameters by section, which may hold sections; a top-level value keeps its name."""
     flat = {}
-    for section, values in parameters.items():
-        flat.update(
-            {f"{section}.{key}": v for key, v in values.items()} if isinstance(values, dict) else {section: values}
-        )
+    for name, value in parameters.items():
+        inner = flat_parameters(value) if isinstance(value, dict) else {}
+        flat.update({f"{name}.{key}": v for key, v in inner.items()} if isinstance(value, dict) else {name: value})
     return flat
 
 

@@ -32,8 +32,8 @@ EARLY_TIMES = (0.05, 0.2, 0.5, 0.8)
 QUICK_GEOMETRIC = {
     "phase_field.epsilon": "2.4",
     "phase_field.cell_size": "2.5",
-    "phase_field.max_step": "0.05",
-    "phase_field.mobility": "2.1",
+    "phase_field.paper.max_step": "0.05",
+    "phase_field.paper.mobility": "2.1",
 }
 
 

@@ -39,10 +39,10 @@ def settings(symbol, value, quick):
     factor = QUICK_FACTOR if quick else 1.0
     return {
         "phase_field.scheme": "paper",
-        "phase_field.mobility": f"{MOBILITY_PER_PRINTED * at['γ']:.6g}",
+        "phase_field.paper.mobility": f"{MOBILITY_PER_PRINTED * at['γ']:.6g}",
         "phase_field.epsilon": f"{factor * at['ε']:.6g}",
         "phase_field.cell_size": f"{factor * at['h']:.6g}",
-        "phase_field.max_step": f"{1e-3 * at['τ']:.6g}",
+        "phase_field.paper.max_step": f"{1e-3 * at['τ']:.6g}",
         "output.field_interval": "0",
     }
 

@@ -63,7 +63,7 @@ Contour extract_contour(const ContourFields& fields, const Parameters& p) {
         return {to_curve(thin_out(chain, spacing)), static_cast<unsigned int>(chains.size())};
     }
     throw SolverError("membrane-lost", "the level set φ = 0 does not connect the rim with the axis",
-                      "use a smaller phase_field.max_motion or cell_size");
+                      "use a smaller phase_field.cell_size or time.max_step");
 }
 
 std::vector<PlanePoint> positions(const MembraneCurve& curve) {

@@ -19,7 +19,7 @@ void check(PetscErrorCode code, const std::string& name) {
     if (code != 0)
         throw SolverError("linear-solver",
                           "PETSc returned error " + std::to_string(code) + " in the " + name + " system",
-                          "use a smaller phase_field.max_step or more memory");
+                          "use a smaller time.max_step or more memory");
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ bool LinearSystem::attempt() {
 void LinearSystem::require_finite_residual() const {
     if (!std::isfinite(right_hand_side.l2_norm()))
         throw SolverError("not-a-number", "the residual of the " + name_ + " system is not finite",
-                          "use a smaller phase_field.max_motion or phase_field.max_step");
+                          "use a smaller time.max_step");
 }
 
 void LinearSystem::solve(const dealii::AffineConstraints<double>& constraints, Vector& solution) {
@@ -112,7 +112,7 @@ void LinearSystem::solve(const dealii::AffineConstraints<double>& constraints, V
     }
     if (!solved)
         throw SolverError("linear-solver", "MUMPS could not solve the " + name_ + " system",
-                          "use a smaller phase_field.max_step, a larger tension_extension or more memory");
+                          "use a smaller time.max_step or more memory");
     hand_out(constraints, solution);
 }
 

@@ -118,7 +118,7 @@ void SubdomainSystem::require_finite(const dealii::Vector<double>& vector, const
 void SubdomainSystem::require_solved(bool own) const {
     if (!everywhere(own))
         throw SolverError("linear-solver", "MUMPS could not solve the " + name_ + " system",
-                          "use a smaller phase_field.max_step, a larger tension_extension or more memory");
+                          "use a smaller time.max_step or more memory");
 }
 
 void SubdomainSystem::factorise() {

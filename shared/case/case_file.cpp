@@ -51,6 +51,9 @@ std::string unknown_section_message(const std::string& section) {
 }
 
 std::string unknown_key_message(const std::string& section, const std::string& key) {
+    for (const auto& row : parameter_table())
+        if (row.key == key && row.section.starts_with(section + "."))
+            return fmt::format("{}.{} has a section of its own: write {}", section, key, row.name());
     std::vector<std::string> names;
     for (const auto& row : parameter_table()) names.push_back(row.name());
     return fmt::format("unknown key {}.{}{}", section, key, suggestion(section + "." + key, names));
@@ -65,28 +68,37 @@ ParameterValue value_of(const toml::node& node, const std::string& name, const s
     throw InputError(fmt::format("{}: {} must be {}", where, name, row ? describe_allowed(*row) : "a single value"));
 }
 
+/// The table of a section, where it stands; throws when it is anything else.
+const toml::table& section_table(const toml::key& key, const toml::node& node, const std::string& name,
+                                 const std::string& source_name) {
+    const std::string where = location(source_name, key.source());
+    if (!known_sections().contains(name)) throw InputError(where + ": " + unknown_section_message(name));
+    if (!node.is_table()) throw InputError(fmt::format("{}: {} must be a section, written [{}]", where, name, name));
+    return *node.as_table();
+}
+
 void apply_section(Parameters& parameters, const std::string& section, const toml::table& keys,
                    const std::string& source_name) {
     for (const auto& [key, node] : keys) {
         const std::string where = location(source_name, node.source());
         const std::string name = section + "." + std::string(key.str());
+        if (known_sections().contains(name)) {
+            apply_section(parameters, name, section_table(key, node, name, source_name), source_name);
+            continue;
+        }
         const ParameterRow* row = find_parameter(name);
         if (row == nullptr)
             throw InputError(fmt::format("{}: {}", location(source_name, key.source()),
-                                         unknown_key_message(section, std::string(key.str()))));
+                                         node.is_table() ? unknown_section_message(name)
+                                                         : unknown_key_message(section, std::string(key.str()))));
         set_parameter(parameters, *row, value_of(node, name, where), where);
     }
 }
 
 void apply_document(Parameters& parameters, const toml::table& document, const std::string& source_name) {
-    const auto& sections = known_sections();
     for (const auto& [section, node] : document) {
         const std::string name(section.str());
-        const std::string where = location(source_name, section.source());
-        if (!sections.contains(name)) throw InputError(where + ": " + unknown_section_message(name));
-        if (!node.is_table())
-            throw InputError(fmt::format("{}: {} must be a section, written [{}]", where, name, name));
-        apply_section(parameters, name, *node.as_table(), source_name);
+        apply_section(parameters, name, section_table(section, node, name, source_name), source_name);
     }
 }
 
@@ -109,8 +121,8 @@ ParameterValue override_value(const std::string& text, const std::string& name, 
 
 void apply_override(Parameters& parameters, const std::string& text) {
     const auto equals = text.find('=');
-    const auto dot = text.find('.');
-    if (equals == std::string::npos || dot == std::string::npos || dot > equals)
+    const auto dot = text.substr(0, equals).rfind('.');
+    if (equals == std::string::npos || dot == std::string::npos)
         throw InputError(fmt::format("--set {}: it must read section.key=value", text));
     const std::string where = "--set " + text;
     const std::string section = text.substr(0, dot), key = text.substr(dot + 1, equals - dot - 1);

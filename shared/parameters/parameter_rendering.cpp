@@ -103,8 +103,14 @@ nlohmann::ordered_json describe_parameters(const ParameterRows& rows) {
 
 nlohmann::ordered_json parameters_to_json(const Parameters& parameters) {
     nlohmann::ordered_json result;
-    for (const auto& row : parameter_table())
-        std::visit([&](const auto& value) { result[row.section][row.key] = value; }, row.get(parameters));
+    for (const auto& row : parameter_table()) {
+        auto* section = &result;  // [a.b] is an object within an object
+        for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+            end = row.section.find('.', begin);
+            section = &(*section)[row.section.substr(begin, end - begin)];
+        }
+        std::visit([&](const auto& value) { (*section)[row.key] = value; }, row.get(parameters));
+    }
     return result;
 }
 

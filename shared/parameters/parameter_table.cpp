@@ -1,6 +1,7 @@
 #include "shared/parameters/parameter_table.h"
 
 #include <array>
+#include <functional>
 #include <type_traits>
 
 namespace endoflow {
@@ -39,32 +40,35 @@ struct EnumNames<ViscosityMean> {
     static constexpr std::array names{"arithmetic", "harmonic"};
 };
 
-/// Binds a row to the member it sets. `Member` decides the type a case file must use.
-template <class Section, class Member>
-ParameterRow row(const char* section_name, const char* key, Section Parameters::*section, Member Section::*member,
-                 const char* unit, Bounds bounds, const char* symbol, const char* meaning) {
+/// Binds a row to the member it sets; `section` finds the member's struct in Parameters. `Member` decides the type a
+/// case file must use.
+template <class Find, class Section, class Member>
+ParameterRow row(const char* section_name, const char* key, Find section, Member Section::*member, const char* unit,
+                 Bounds bounds, const char* symbol, const char* meaning) {
     ParameterRow result{section_name, key, unit, bounds, symbol, meaning, {}, nullptr, nullptr};
     if constexpr (std::is_enum_v<Member>) {
         for (const char* name : EnumNames<Member>::names) result.choices.emplace_back(name);
         result.get = [section, member](const Parameters& p) -> ParameterValue {
-            return std::string(EnumNames<Member>::names[static_cast<std::size_t>(p.*section.*member)]);
+            return std::string(EnumNames<Member>::names[static_cast<std::size_t>(std::invoke(section, p).*member)]);
         };
         result.set = [section, member](Parameters& p, const ParameterValue& value) {
             const auto& name = std::get<std::string>(value);
             for (std::size_t i = 0; i < EnumNames<Member>::names.size(); ++i)
-                if (name == EnumNames<Member>::names[i]) p.*section.*member = static_cast<Member>(i);
+                if (name == EnumNames<Member>::names[i]) std::invoke(section, p).*member = static_cast<Member>(i);
         };
     } else if constexpr (std::is_same_v<Member, int>) {
         result.get = [section, member](const Parameters& p) -> ParameterValue {
-            return static_cast<long long>(p.*section.*member);
+            return static_cast<long long>(std::invoke(section, p).*member);
         };
         result.set = [section, member](Parameters& p, const ParameterValue& value) {
-            p.*section.*member = static_cast<int>(std::get<long long>(value));
+            std::invoke(section, p).*member = static_cast<int>(std::get<long long>(value));
         };
     } else {
-        result.get = [section, member](const Parameters& p) -> ParameterValue { return p.*section.*member; };
+        result.get = [section, member](const Parameters& p) -> ParameterValue {
+            return std::invoke(section, p).*member;
+        };
         result.set = [section, member](Parameters& p, const ParameterValue& value) {
-            p.*section.*member = std::get<Member>(value);
+            std::invoke(section, p).*member = std::get<Member>(value);
         };
     }
     return result;
@@ -193,20 +197,8 @@ std::vector<ParameterRow> phase_field_rows() {
         row("phase_field", "scheme", &P::phase_field, &S::scheme, "", any(), "",
             "production = all fields implicit, BDF3 with error control; paper = the first-order splitting of Sec. 3"),
         row("phase_field", "epsilon", &P::phase_field, &S::epsilon, "nm", positive(1e3), "ε", "interface thickness"),
-        row("phase_field", "mobility", &P::phase_field, &S::mobility, "nm^2/(pN µs)", at_least(0, 1e6), "γ",
-            "scheme paper: mobility of the phase field in (35); Table 1's 6.4 nm^3/s is 6.4e-6 nm^2/(pN µs)"),
-        row("phase_field", "tension_extension", &P::phase_field, &S::tension_extension, "1/(pN µs)", positive(1e9), "ξ",
-            "scheme paper: extension of the tension off the membrane in (34); Table 1: 390.625, which leaks area"),
-        row("phase_field", "stretching_relaxation", &P::phase_field, &S::stretching_relaxation, "", at_least(0, 10),
-            "ζτ", "scheme paper: part of the stretching s - 1 that (34) removes per time step; printed: 1"),
         row("phase_field", "stretching_diffusivity", &P::phase_field, &S::stretching_diffusivity, "nm^2/µs",
             at_least(0, 1e9), "D_s", "diffusivity of the stretching s along the membrane in (38)"),
-        row("phase_field", "profile_mobility", &P::phase_field, &S::profile_mobility, "nm/µs", at_least(0, 1e6), "M",
-            "scheme paper: relaxation of φ towards its profile along the normal, without curvature flow; printed: 0"),
-        row("phase_field", "advection_centering", &P::phase_field, &S::advection_centering, "", at_least(0, 1), "",
-            "scheme paper: weight of the new φ in u·∇φ; 0 = old φ as printed, 0.5 = no anti-diffusion of the profile"),
-        row("phase_field", "force_centering", &P::phase_field, &S::force_centering, "", at_least(0, 1), "",
-            "scheme paper: weight of the new φ and f in the membrane's forces; 0 = as printed, 1 = exact balance"),
         row("phase_field", "viscosity_mean", &P::phase_field, &S::viscosity_mean, "", any(), "ν(φ)",
             "how the viscosity changes across the layer: arithmetic (the paper) or harmonic"),
         row("phase_field", "cell_size", &P::phase_field, &S::cell_size, "nm", at_least(0, 1e3), "h",
@@ -223,22 +215,52 @@ std::vector<ParameterRow> phase_field_rows() {
             "polynomial degree of λ; stable for small ξ only below velocity_degree; the paper: 2"),
         row("phase_field", "surface_degree", &P::phase_field, &S::surface_degree, "", at_least(1, 6), "",
             "polynomial degree of the stretching and of the molecules; the paper: 2"),
-        row("phase_field", "ramp_steps", &P::phase_field, &S::ramp_steps, "", at_least(1, 1e6), "",
-            "scheme paper: the time step doubles after so many steps until it reaches its limit; printed: 30"),
-        row("phase_field", "max_step", &P::phase_field, &S::max_step, "µs", positive(1e6), "τ_max",
-            "scheme paper: largest time step (time.max_step holds as well); printed: 2e-3"),
-        row("phase_field", "max_motion", &P::phase_field, &S::max_motion, "nm", positive(1e3), "",
-            "scheme paper: largest motion of the membrane within one time step"),
-        row("phase_field", "profile_relaxation", &P::phase_field, &S::profile_relaxation, "nm/µs", positive(1e9), "M",
-            "scheme production: flux along the normal that keeps |∇ψ| = 1, at most 2000 times the membrane's speed"),
-        row("phase_field", "tension_alignment", &P::phase_field, &S::tension_alignment, "nm^3/(pN µs)", positive(1e9),
-            "", "scheme production: keeps λ constant across the layer"),
-        row("phase_field", "tension_leak", &P::phase_field, &S::tension_leak, "nm^3/(pN µs)", positive(1e6), "",
-            "scheme production: defines λ far from the layer; as small as it is, it leaks no area"),
-        row("phase_field", "strain_relaxation", &P::phase_field, &S::strain_relaxation, "1/µs", at_least(0, 1e6), "ζ",
-            "scheme production: rate at which accumulated area strain s - 1 is removed"),
-        row("phase_field", "stretching_alignment", &P::phase_field, &S::stretching_alignment, "nm^2/µs", positive(1e12),
-            "", "scheme production: keeps s constant across the layer"),
+    };
+}
+
+std::vector<ParameterRow> paper_scheme_rows() {
+    using S = PaperSchemeParameters;
+    const auto paper = [](auto& p) -> auto& {
+        return p.phase_field.paper;
+    };
+    return {
+        row("phase_field.paper", "mobility", paper, &S::mobility, "nm^2/(pN µs)", at_least(0, 1e6), "γ",
+            "mobility of the phase field in (35); Table 1's 6.4 nm^3/s is 6.4e-6 nm^2/(pN µs)"),
+        row("phase_field.paper", "tension_extension", paper, &S::tension_extension, "1/(pN µs)", positive(1e9), "ξ",
+            "extension of the tension off the membrane in (34); Table 1: 390.625, which leaks area"),
+        row("phase_field.paper", "stretching_relaxation", paper, &S::stretching_relaxation, "", at_least(0, 10), "ζτ",
+            "part of the stretching s - 1 that (34) removes per time step; printed: 1"),
+        row("phase_field.paper", "profile_mobility", paper, &S::profile_mobility, "nm/µs", at_least(0, 1e6), "M",
+            "relaxation of φ towards its profile along the normal, without curvature flow; printed: 0"),
+        row("phase_field.paper", "advection_centering", paper, &S::advection_centering, "", at_least(0, 1), "",
+            "weight of the new φ in u·∇φ; 0 = old φ as printed, 0.5 = no anti-diffusion of the profile"),
+        row("phase_field.paper", "force_centering", paper, &S::force_centering, "", at_least(0, 1), "",
+            "weight of the new φ and f in the membrane's forces; 0 = as printed, 1 = exact balance"),
+        row("phase_field.paper", "ramp_steps", paper, &S::ramp_steps, "", at_least(1, 1e6), "",
+            "the time step doubles after so many steps until it reaches its limit; printed: 30"),
+        row("phase_field.paper", "max_step", paper, &S::max_step, "µs", positive(1e6), "τ_max",
+            "largest time step (time.max_step holds as well); printed: 2e-3"),
+        row("phase_field.paper", "max_motion", paper, &S::max_motion, "nm", positive(1e3), "",
+            "largest motion of the membrane within one time step"),
+    };
+}
+
+std::vector<ParameterRow> production_scheme_rows() {
+    using S = ProductionSchemeParameters;
+    const auto production = [](auto& p) -> auto& {
+        return p.phase_field.production;
+    };
+    return {
+        row("phase_field.production", "profile_relaxation", production, &S::profile_relaxation, "nm/µs", positive(1e9),
+            "M", "flux along the normal that keeps |∇ψ| = 1, at most 2000 times the membrane's speed"),
+        row("phase_field.production", "tension_alignment", production, &S::tension_alignment, "nm^3/(pN µs)",
+            positive(1e9), "", "keeps λ constant across the layer"),
+        row("phase_field.production", "tension_leak", production, &S::tension_leak, "nm^3/(pN µs)", positive(1e6), "",
+            "defines λ far from the layer; as small as it is, it leaks no area"),
+        row("phase_field.production", "strain_relaxation", production, &S::strain_relaxation, "1/µs", at_least(0, 1e6),
+            "ζ", "rate at which accumulated area strain s - 1 is removed"),
+        row("phase_field.production", "stretching_alignment", production, &S::stretching_alignment, "nm^2/µs",
+            positive(1e12), "", "keeps s constant across the layer"),
     };
 }
 
@@ -299,8 +321,9 @@ std::vector<ParameterRow> output_rows() {
 
 std::vector<ParameterRow> build_table() {
     std::vector<ParameterRow> table;
-    for (auto rows : {case_rows(), domain_rows(), fluid_rows(), membrane_rows(), molecule_rows(), phase_field_rows(),
-                      boundary_integral_rows(), time_rows(), output_rows()})
+    for (auto rows :
+         {case_rows(), domain_rows(), fluid_rows(), membrane_rows(), molecule_rows(), phase_field_rows(),
+          paper_scheme_rows(), production_scheme_rows(), boundary_integral_rows(), time_rows(), output_rows()})
         table.insert(table.end(), rows.begin(), rows.end());
     return table;
 }

@@ -62,16 +62,32 @@ struct MoleculeParameters {
     double normal_diffusivity = 1600;
 };
 
-struct PhaseFieldParameters {
-    PhaseFieldScheme scheme = PhaseFieldScheme::production;
-    double epsilon = 1.2;
+/// What scheme `paper` alone reads.
+struct PaperSchemeParameters {
     double mobility = 0.0064;
     double tension_extension = 0.390625;
     double stretching_relaxation = 0.05;
-    double stretching_diffusivity = 16;
     double profile_mobility = 600;
     double advection_centering = 0.5;
     double force_centering = 1;
+    int ramp_steps = 10;
+    double max_step = 2e-3;
+    double max_motion = 0.3;
+};
+
+/// What scheme `production` alone reads.
+struct ProductionSchemeParameters {
+    double profile_relaxation = 2e4;
+    double tension_alignment = 30;
+    double tension_leak = 1e-2;
+    double strain_relaxation = 100;
+    double stretching_alignment = 2e5;
+};
+
+struct PhaseFieldParameters {
+    PhaseFieldScheme scheme = PhaseFieldScheme::production;
+    double epsilon = 1.2;
+    double stretching_diffusivity = 16;
     ViscosityMean viscosity_mean = ViscosityMean::arithmetic;
     double cell_size = 0;
     int far_refinements = 3;
@@ -80,14 +96,8 @@ struct PhaseFieldParameters {
     int velocity_degree = 3;
     int tension_degree = 2;
     int surface_degree = 3;
-    int ramp_steps = 10;
-    double max_step = 2e-3;
-    double max_motion = 0.3;
-    double profile_relaxation = 2e4;
-    double tension_alignment = 30;
-    double tension_leak = 1e-2;
-    double strain_relaxation = 100;
-    double stretching_alignment = 2e5;
+    PaperSchemeParameters paper;
+    ProductionSchemeParameters production;
 };
 
 struct BoundaryIntegralParameters {

@@ -23,7 +23,7 @@ std::size_t edit_distance(const std::string& first, const std::string& second) {
 std::optional<std::string> nearest_word(const std::string& word, const std::vector<std::string>& known) {
     constexpr std::size_t longest_word = 200;
     if (word.size() > longest_word) return std::nullopt;
-    const auto after_dot = [](const std::string& text) { return text.substr(text.find('.') + 1); };
+    const auto after_dot = [](const std::string& text) { return text.substr(text.rfind('.') + 1); };
     std::optional<std::string> nearest;
     std::size_t least = std::numeric_limits<std::size_t>::max();
     for (const auto& candidate : known) {

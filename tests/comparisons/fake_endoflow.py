@@ -36,20 +36,30 @@ def options(arguments):
     return words, settings, output, flags
 
 
+def assignments(sections, prefix=""):
+    """The keys of a case file as "section.key=value"; sections may hold sections."""
+    for key, value in sections.items():
+        if isinstance(value, dict):
+            yield from assignments(value, f"{prefix}{key}.")
+        else:
+            yield f"{prefix}{key}={value}"
+
+
 def resolved(case, settings):
     """The parameters of a case."""
     if not Path(case).is_file():
         fail(f"{case}: no such case file; give the path of a TOML file", 2)
     parameters = json.loads(Path("defaults.json").read_text())
     sections = tomllib.loads(Path(case).read_text())
-    in_case = [f"{section}.{key}={value}" for section, values in sections.items() for key, value in values.items()]
-    for setting in [*in_case, *settings]:
+    for setting in [*assignments(sections), *settings]:
         key, _, text = setting.partition("=")
-        section, name = key.split(".")
-        if name not in parameters.get(section, {}):
+        *path, name = key.split(".")
+        section = parameters
+        for part in path:
+            section = section.get(part, {})
+        if name not in section:
             fail(f"--set {setting}: unknown key {key}", 2)
-        before = parameters[section][name]
-        parameters[section][name] = text if isinstance(before, (str, bool)) else float(text)
+        section[name] = text if isinstance(section[name], (str, bool)) else float(text)
     if parameters["molecules"]["patch_radius"] > 1000:
         fail("molecules.patch_radius: must be at most 1000", 2)
     return parameters

@@ -34,7 +34,7 @@ class StudyTest(CommandTest):
         (self.scratch / "case.toml").write_text("")
         defaults = {
             "case": {"name": "synthetic", "description": ""},
-            **synthetic.parameters(phase_field__cell_size=0.6, phase_field__mobility=0.0064),
+            **synthetic.parameters(phase_field__cell_size=0.6),
         }
         (self.scratch / "defaults.json").write_text(json.dumps(defaults))
 

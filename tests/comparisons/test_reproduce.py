@@ -20,7 +20,10 @@ from studies import StudyTest
 OTHER_KEYS = {
     "membrane": {"constitutive_law": "linear", "inextensible": True},
     "molecules": {"diffusivity": 16.0},
-    "phase_field": {"scheme": "paper", "max_step": 0.002, "profile_mobility": 600.0},
+    "phase_field": {
+        "scheme": "paper",
+        "paper": {"mobility": 0.0064, "max_step": 0.002, "profile_mobility": 600.0},
+    },
     "output": {"field_interval": 0.5},
 }
 

@@ -43,7 +43,7 @@ State equilibrate(Discretization& d, const State& state) {
 TEST_CASE("∫ g δφ is the change of the discrete bending energy", "[energy]") {
     Parameters p = small_case();
     p.fluid.dynamics = Dynamics::geometric;
-    p.phase_field.mobility = 1e-3;
+    p.phase_field.paper.mobility = 1e-3;
     Discretization d(p, MPI_COMM_SELF);
     State base = initial_state(d);
     displace(d.spaces.flow, 0.1, base.flow);  // away from the flat membrane

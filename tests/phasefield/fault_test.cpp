@@ -84,7 +84,7 @@ TEST_CASE("a linear system survives not-a-numbers and singular matrices", "[faul
 TEST_CASE("rejected steps in a row end in a run that goes on", "[faults]") {
     const TemporaryDirectory scratch;
     Parameters p = short_run();
-    p.phase_field.max_motion = 1e-3;  // nm: a step of 1e-5 µs moves the membrane farther
+    p.phase_field.paper.max_motion = 1e-3;  // nm: a step of 1e-5 µs moves the membrane farther
     RunOutput output(p, identity(1), scratch.path() / "run", StartMode::fresh, OutputRole::owner);
     CHECK(simulate(p, output, MPI_COMM_SELF) == ExitReason::done);
     output.finish(ExitReason::done);
@@ -95,7 +95,7 @@ TEST_CASE("rejected steps in a row end in a run that goes on", "[faults]") {
 TEST_CASE("steps that are always rejected end in an error with a name, and no row is written", "[faults]") {
     const TemporaryDirectory scratch;
     Parameters p = short_run();
-    p.phase_field.max_motion = 1e-12;
+    p.phase_field.paper.max_motion = 1e-12;
     RunOutput output(p, identity(1), scratch.path() / "run", StartMode::fresh, OutputRole::owner);
     try {
         simulate(p, output, MPI_COMM_SELF);

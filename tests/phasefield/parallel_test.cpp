@@ -32,7 +32,7 @@ Outcome outcome(Discretization& d, const State& state) {
 
 Outcome short_run(MPI_Comm communicator) {
     Parameters p = small_case();
-    p.phase_field.profile_mobility = 300;
+    p.phase_field.paper.profile_mobility = 300;
     Discretization d(p, communicator);
     State state = initial_state(d);
     for (int step = 0; step < 4; ++step) {

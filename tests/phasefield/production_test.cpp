@@ -36,7 +36,7 @@ Fields<double> some_point() {
 }
 
 StepNumbers numbers(const Parameters& p) {
-    return step_numbers(p, 40, p.phase_field.profile_relaxation);
+    return step_numbers(p, 40, p.phase_field.production.profile_relaxation);
 }
 
 /// Reads a column of early.csv at the first row, 0.0005 µs.
@@ -98,7 +98,8 @@ TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
             p.fluid.inertia = inertia;
             p.fluid.density = 1;  // large enough to be seen
             p.molecules.transport = transport;
-            p.phase_field.profile_relaxation = p.molecules.mobility = p.phase_field.stretching_alignment = 10;
+            p.phase_field.production.profile_relaxation = p.molecules.mobility =
+                p.phase_field.production.stretching_alignment = 10;
             const BendingModel model(p.membrane);
             PointHistory past;
             past.normal = past.molecules_normal = {0.5, 0.6};

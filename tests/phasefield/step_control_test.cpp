@@ -16,8 +16,8 @@ using namespace endoflow::phasefield::paper;
 TEST_CASE("the step doubles every ramp_steps steps up to its limit", "[control]") {
     Parameters p;
     p.time.initial_step = 1e-5;
-    p.phase_field.ramp_steps = 3;
-    p.phase_field.max_step = 3.5e-5;
+    p.phase_field.paper.ramp_steps = 3;
+    p.phase_field.paper.max_step = 3.5e-5;
     StepControl control(p);
     for (int i = 0; i < 2; ++i) control.accept(control.nominal, 0);
     CHECK(control.nominal == Approx(1e-5));
@@ -30,7 +30,7 @@ TEST_CASE("the step doubles every ramp_steps steps up to its limit", "[control]"
 TEST_CASE("a large motion shortens the step, a rejection halves it, and that ends in an error with a name",
           "[control]") {
     Parameters p;
-    p.phase_field.max_motion = 0.2;
+    p.phase_field.paper.max_motion = 0.2;
     StepControl control(p);
     control.accept(1e-5, 0.32);  // twice what the safety factor 0.8 allows
     CHECK(control.nominal == Approx(0.5e-5));

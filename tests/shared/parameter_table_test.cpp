@@ -57,3 +57,13 @@ TEST_CASE("the nearest known word is found, far ones are not suggested") {
     CHECK(nearest_word("tolerence", {"tolerance", "end"}).value() == "tolerance");
     CHECK_FALSE(nearest_word("zzzzzz", {"tolerance", "end"}).has_value());
 }
+
+TEST_CASE("a section within a section is an object within an object, and --set finds it") {
+    const Parameters p = parse_case("[phase_field]\nepsilon = 2\n[phase_field.paper]\nmax_motion = 0.5\n", "case.toml",
+                                    {"phase_field.production.tension_leak=0.02"});
+    CHECK(p.phase_field.epsilon == 2);
+    CHECK(p.phase_field.paper.max_motion == 0.5);
+    const auto json = parameters_to_json(p);
+    CHECK(json["phase_field"]["paper"]["max_motion"] == 0.5);
+    CHECK(json["phase_field"]["production"]["tension_leak"] == 0.02);
+}

@@ -130,7 +130,7 @@ Couplings flow_couplings(const Parameters& p) {
         for (const unsigned int other : {pressure, tension, force}) couple(velocity, other);
     couple(phi, force);
     couple(phi, moment);
-    if (p.phase_field.force_centering > 0)
+    if (p.phase_field.paper.force_centering > 0)
         for (const unsigned int velocity : {u_r, u_z})
             table(velocity, phi) = table(velocity, moment) = dealii::DoFTools::always;
     return table;
@@ -142,7 +142,7 @@ void assemble_coupled(const Spaces& spaces, const State& old_state, const Vector
     const StepCoefficients step{tau, parameters.phase_field, parameters.fluid};
     OldFields old_fields(spaces, parameters, quadrature);
     Vector recovered_gradient;
-    if (parameters.phase_field.profile_mobility > 0) {
+    if (parameters.phase_field.paper.profile_mobility > 0) {
         recovered_gradient = recover_gradient(spaces.flow, phi, old_state.flow, spaces.gradient);
         old_fields.with_relaxation(recovered_gradient);
     }

@@ -65,7 +65,7 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const State& before, const S
             const double w = two_pi * p.measure, hoop = ur.value[q] / p.r, shear = ur.z[q] + uz.r[q];
             sums[0] += w * energy_density(p.moment, p.bending.stiffness, epsilon);
             sums[1] += w * p.viscosity * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
-            sums[2] += w * numerics.mobility * g.value[q] * g.value[q];
+            sums[2] += w * numerics.paper.mobility * g.value[q] * g.value[q];
             sums[3] += w * lambda.value[q] * p.layer.gradient *
                        surface_divergence(p.layer.normal_r, p.layer.normal_z, ur.r[q], hoop, uz.z[q], shear);
             const double e = concentration_force(p.phi.value, p.moment, p.bending, epsilon).value;

@@ -56,8 +56,8 @@ void add_inextensibility(const CoupledPoints& points, LocalSystem& local) {
 
 /// (34): ξ ε² ∇·(φ² ∇λ), weakly −∫ ξ ε² φ² ∇λ·∇η, and the relaxation −ζ |∇φ| (s − 1)/s of the stretching.
 void add_tension_extension(const CoupledPoints& points, const StepCoefficients& step, LocalSystem& local) {
-    const double xi = step.numerics.tension_extension * step.numerics.epsilon * step.numerics.epsilon;
-    const double zeta = step.numerics.stretching_relaxation / step.tau;
+    const double xi = step.numerics.paper.tension_extension * step.numerics.epsilon * step.numerics.epsilon;
+    const double zeta = step.numerics.paper.stretching_relaxation / step.tau;
     const auto extension =
         at_points(points, [&](const auto& p) { return -p.measure * xi * p.phi.value * p.phi.value; });
     const auto relaxation = at_points(points, [&](const auto& p) {

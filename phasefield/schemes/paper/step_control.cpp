@@ -19,9 +19,9 @@ constexpr double smallest_fraction = 1e-4;  // of the first step
 StepControl::StepControl(const Parameters& p)
     : nominal(p.time.initial_step),
       initial_(p.time.initial_step),
-      limit_(std::min(p.phase_field.max_step, p.time.max_step)),
-      max_motion_(p.phase_field.max_motion),
-      ramp_steps_(p.phase_field.ramp_steps) {}
+      limit_(std::min(p.phase_field.paper.max_step, p.time.max_step)),
+      max_motion_(p.phase_field.paper.max_motion),
+      ramp_steps_(p.phase_field.paper.ramp_steps) {}
 
 double StepControl::step(double time, double deadline) const {
     const double left = deadline - time;
@@ -44,7 +44,8 @@ void StepControl::reject(double time) {
     since_doubling = 0;
     if (nominal < smallest_fraction * initial_)
         throw SolverError("step-size-underflow", "no acceptable time step at t = " + std::to_string(time) + " µs",
-                          "use a smaller phase_field.cell_size, a larger max_motion or a larger tension_extension");
+                          "use a smaller phase_field.cell_size, or a larger max_motion or tension_extension in "
+                          "[phase_field.paper]");
 }
 
 }  // namespace endoflow::phasefield::paper

@@ -85,15 +85,16 @@ void add_phase_field_rate(const CoupledPoints& points, const StepCoefficients& s
                  at_points(points, [&](const auto& p, std::size_t) { return -p.measure / step.tau; }));
     local.residual(force, Op::value,
                    at_points(points, [&](const auto& p, std::size_t) { return p.measure / step.tau * p.phi.value; }));
-    local.linear(force, Op::value, force, Op::value,
-                 at_points(points, [&](const auto& p, std::size_t) { return -p.measure * step.numerics.mobility; }));
+    local.linear(force, Op::value, force, Op::value, at_points(points, [&](const auto& p, std::size_t) {
+                     return -p.measure * step.numerics.paper.mobility;
+                 }));
 }
 
 /// Added to the right of (35): M W ( ε ∂_nn φ + φ(1 − φ²)/ε ), weakly −M ε ∫ (n·∇φ)( W n·∇ψ + ψ ∇·(n W) ) + …, with n
 /// and the weight W from time level n. It restores the equilibrium profile along the normal and, being free of the
 /// curvature term, does not move the interface.
 void add_profile_relaxation(const CoupledPoints& points, const StepCoefficients& step, LocalSystem& local) {
-    const double M = step.numerics.profile_mobility, epsilon = step.numerics.epsilon;
+    const double M = step.numerics.paper.profile_mobility, epsilon = step.numerics.epsilon;
     const auto diffusion = [&](const auto& p) { return -p.measure * M * epsilon * p.relaxation.weight; };
     const auto drift = [&](const auto& p) {
         return -p.measure * M * epsilon * p.relaxation.weighted_normal_divergence;
@@ -160,11 +161,11 @@ void add_moment_definition(const CoupledPoints& points, double epsilon, LocalSys
 
 void add_willmore_terms(const CoupledPoints& points, const StepCoefficients& step, LocalSystem& local) {
     const double epsilon = step.numerics.epsilon;
-    add_advection(points, step.numerics.advection_centering, local);
-    add_membrane_force(points, step.numerics.force_centering, local);
-    add_concentration_force(points, step.numerics.force_centering, epsilon, local);
+    add_advection(points, step.numerics.paper.advection_centering, local);
+    add_membrane_force(points, step.numerics.paper.force_centering, local);
+    add_concentration_force(points, step.numerics.paper.force_centering, epsilon, local);
     add_phase_field_rate(points, step, local);
-    if (step.numerics.profile_mobility > 0) add_profile_relaxation(points, step, local);
+    if (step.numerics.paper.profile_mobility > 0) add_profile_relaxation(points, step, local);
     add_membrane_force_definition(points, epsilon, local);
     add_moment_definition(points, epsilon, local);
 }

@@ -56,7 +56,7 @@ struct StepNumbers {
     FluidParameters fluid;
     MoleculeParameters molecules;
     MembraneWeight weight;
-    double profile_relaxation = numerics.profile_relaxation;  // M of this step [nm/µs]
+    double profile_relaxation = numerics.production.profile_relaxation;  // M of this step [nm/µs]
 };
 
 inline constexpr double surface_floor = 1e-8;    // [1/nm] added to δ, so that G, μ and s are defined everywhere
@@ -222,7 +222,7 @@ void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Num
     row[pressure].value = -divergence;
     const auto& q = x[pressure_layer];
     row[pressure_layer].value = -p.layer.delta * (divergence + pressure_leak * q.value);
-    extend_multiplier(q, p, past, layer_pressure_alignment, step.numerics.tension_leak, row[pressure_layer]);
+    extend_multiplier(q, p, past, layer_pressure_alignment, step.numerics.production.tension_leak, row[pressure_layer]);
 }
 
 /// (34): P:∇u = ζ (s − 1) on the average across the layer. λ is kept constant along the normal by the alignment
@@ -234,8 +234,9 @@ void add_inextensibility(const Fields<Number>& x, const PointGeometry<Number>& p
     const auto &ur = x[velocity_r], &uz = x[velocity_z], &lambda = x[tension];
     const Number& s = x[membrane_stretch].value;
     const Number stretching = surface_divergence<Number>(p.normal_r, p.normal_z, ur.r, ur.value / r, uz.z, ur.z + uz.r);
-    row[tension].value = p.density * (stretching - step.numerics.strain_relaxation * (s - 1.0));
-    extend_multiplier(lambda, p, past, step.numerics.tension_alignment, step.numerics.tension_leak, row[tension]);
+    row[tension].value = p.density * (stretching - step.numerics.production.strain_relaxation * (s - 1.0));
+    extend_multiplier(lambda, p, past, step.numerics.production.tension_alignment,
+                      step.numerics.production.tension_leak, row[tension]);
 }
 
 /// A diffusivity along the normal [nm²/µs] made fast within a step: δ_m is negative in the layer's tails, where without
@@ -261,7 +262,7 @@ void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const P
 
     const Number changing_r = step.rate * psi.r + past.slope_r, changing_z = step.rate * psi.z + past.slope_z;
     const Number aligning = (step_alignment * epsilon * epsilon) * p.layer.squared_well;
-    const double far = step.numerics.profile_relaxation * epsilon * far_part;
+    const double far = step.numerics.production.profile_relaxation * epsilon * far_part;
     const Number flux = (step.profile_relaxation * epsilon) * p.layer.squared_well * (n.r * psi.r + n.z * psi.z - 1.0);
     row[distance] = {rate,
                      aligning * normal_part(n, n.r, changing_r, n.z, changing_z) + (flux - far) * n.r + far * psi.r,
@@ -322,9 +323,10 @@ void add_stretching(const Fields<Number>& x, const PointGeometry<Number>& p, con
                     const StepNumbers& step, Fields<Number>& row) {
     const auto& s = x[membrane_stretch];
     add_transport(s.value, x, p, past, past.stretching, step, row[membrane_stretch]);
-    add_alignment(s, past.normal, within_a_step(step.numerics.stretching_alignment, step) * p.surface,
+    add_alignment(s, past.normal, within_a_step(step.numerics.production.stretching_alignment, step) * p.surface,
                   row[membrane_stretch]);
-    const double smoothing = step.numerics.strain_relaxation * step.numerics.cell_size * step.numerics.cell_size;
+    const double smoothing =
+        step.numerics.production.strain_relaxation * step.numerics.cell_size * step.numerics.cell_size;
     add_diffusion(s, (step.numerics.stretching_diffusivity + smoothing) * p.surface, row[membrane_stretch]);
 }
 

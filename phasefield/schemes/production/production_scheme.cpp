@@ -147,7 +147,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     const double end = time + tau;
     const auto bdf = bdf_coefficients(end, times_, order());
     numbers_.rate = bdf.rate;
-    numbers_.profile_relaxation = parameters_.phase_field.profile_relaxation;
+    numbers_.profile_relaxation = parameters_.phase_field.production.profile_relaxation;
     if (since_start_ > 0)
         numbers_.profile_relaxation = std::min(numbers_.profile_relaxation, relaxation_per_speed * speed_);
     const Vector predicted = polynomial(end, std::min(order() + 1, times_.size()));
@@ -217,7 +217,7 @@ void ProductionScheme::reject(double time, double tau) {
     trial_factor_ = 0;
     if (nominal_ < smallest_step * parameters_.time.initial_step)
         throw SolverError("step-size-underflow", "no acceptable time step at t = " + std::to_string(time) + " µs",
-                          "use a smaller phase_field.cell_size or a larger phase_field.profile_relaxation");
+                          "use a smaller phase_field.cell_size or a larger phase_field.production.profile_relaxation");
 }
 
 void ProductionScheme::write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
