@@ -1,5 +1,7 @@
 #include "phasefield/simulation.h"
 
+#include <utility>
+
 #include "phasefield/driver/time_loop.h"
 #include "phasefield/fem/mesh.h"
 #include "phasefield/make_scheme.h"
@@ -12,7 +14,11 @@ ExitReason simulate(const Parameters& parameters, RunOutput& output, MPI_Comm co
         throw InputError("domain.kind: the phase-field engine knows the box only; use the boundary-integral engine");
     const Parameters chosen = with_chosen_cells(parameters);
     output.note("cell_size_nm", layer_cell_size(chosen));
-    return TimeLoop(chosen, output, communicator, make_scheme(chosen, communicator)).run();
+    auto scheme = make_scheme(chosen, communicator);
+    auto constants = nlohmann::ordered_json::object();
+    for (const auto& [name, value] : scheme->constants()) constants[name] = value;
+    output.note("constants", constants);
+    return TimeLoop(chosen, output, communicator, std::move(scheme)).run();
 }
 
 }  // namespace endoflow::phasefield

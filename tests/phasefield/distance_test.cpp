@@ -93,7 +93,7 @@ TEST_CASE("a pit in the distance outside of the layer fills up", "[distance]") {
     past[0].update_ghost_values();
     REQUIRE(largest_error(space, p, past[0], 28) > 5.9);
     for (int step = 0; step < 6; ++step) {
-        const StepHistory history(space, numbers, past, {-numbers.rate}, {1}, past[0]);
+        const StepPast history(space, numbers, past, {-numbers.rate}, {1}, past[0]);
         Vector x = past[0];
         one.solver.solve(space, numbers, history, x);
         past[0] = x;

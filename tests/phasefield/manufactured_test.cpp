@@ -62,7 +62,7 @@ std::array<double, n_fields> errors(unsigned int cells) {
     finish_interpolation(space, x);
     const std::vector<Vector> past{x};
     past.front().update_ghost_values();
-    StepHistory history(space, numbers, past, {-2000}, {1}, past.front());
+    StepPast history(space, numbers, past, {-2000}, {1}, past.front());
     history.manufactured = solution;
     one.solver.solve(space, numbers, history, x);
 

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "one_step.h"
@@ -71,7 +72,7 @@ double change_of_stretch(const Parameters& p, double psi, double motion) {
     step.rate = bdf.rate;
     const auto profile = [&](double at) { return layer_profile(at, p.phase_field.epsilon); };
     const auto row = [&](double z) {
-        PointHistory past;
+        PointPast past;
         past.normal = past.molecules_normal = {0, -1};
         for (std::size_t j = 0; j < 3; ++j) {
             const double before = -z - static_cast<double>(j + 1) * motion;
@@ -101,7 +102,7 @@ TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
             p.phase_field.production.profile_relaxation = p.molecules.mobility =
                 p.phase_field.production.stretching_alignment = 10;
             const BendingModel model(p.membrane);
-            PointHistory past;
+            PointPast past;
             past.normal = past.molecules_normal = {0.5, 0.6};
             const GradientChange change{0.3, -0.2};
             past.slope_r = 0.1;
@@ -150,7 +151,7 @@ TEST_CASE("forces are the variation of the energy", "[production]") {
     };
     auto x = some_point();
     x[normal_force] = {};  // its own terms are not the energy's
-    PointHistory past;
+    PointPast past;
     past.normal = past.molecules_normal = {0.6, 0.8};
     auto rows = point_equations(x, 7.0, past, {}, numbers(p), model);
     for (const Field field : {distance, Field::moment})
@@ -173,7 +174,7 @@ TEST_CASE("what keeps G constant along the normal exerts no net force", "[produc
     Fields<double> x{};
     x[distance] = {0.4, 0.5, -0.7};
     x[normal_force] = {0.3, 0.2, -0.6};
-    PointHistory past;
+    PointPast past;
     past.normal = past.molecules_normal = {0.6, -0.8};
     const double chi_r = 2e-5, chi_z = 3e-5;  // so small that the force does not fade: by 4e-8 of itself
     const GradientChange change{0, past.normal.r * chi_r + past.normal.z * chi_z};
@@ -350,4 +351,18 @@ TEST_CASE("the standard case starts like the sharp model in the production schem
     // Cells of 4/3 ε, first step of 5e-5 µs: measured 3 to 4 %.
     CHECK(seen.extracellular_volume == Approx(early_reference(2)).epsilon(0.06));
     CHECK(seen.bud_height == Approx(early_reference(4)).epsilon(0.06));
+}
+
+TEST_CASE("the table of unknowns has a row for each, in the order of the equations", "[production]") {
+    for (unsigned int f = 0; f < n_fields; ++f) CHECK(unknowns()[f].field == f);
+}
+
+TEST_CASE("the scheme names each of its constants once", "[production]") {
+    std::set<std::string> names;
+    for (const auto& [name, value] : ProductionScheme(small_case(), MPI_COMM_SELF).constants()) {
+        INFO(name);
+        CHECK(names.insert(name).second);
+        CHECK(std::isfinite(value));
+    }
+    CHECK(names.contains("weight_cut"));
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "phasefield/contour/contour.h"
 #include "phasefield/schemes/interface/diagnostics.h"
@@ -15,6 +16,12 @@ struct StepOutcome {
     StepDiagnostics diagnostics;
     Contour contour;
     std::string rejection;  // why the step must be repeated with a smaller one; empty when it may be kept
+};
+
+/// A number with its name in run.json.
+struct NamedNumber {
+    std::string name;
+    double value;
 };
 
 /// A discretisation in space and time with the state it has reached. The time loop drives it and knows nothing else.
@@ -50,6 +57,8 @@ class Scheme {
     [[nodiscard]] virtual Contour contour_at(double /*time*/) const { throw std::logic_error("no interpolation"); }
     virtual void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
                               double time) const = 0;
+    /// Numbers of the scheme that are no parameters, for run.json.
+    [[nodiscard]] virtual std::vector<NamedNumber> constants() const { return {}; }
     [[nodiscard]] virtual double unknowns() const = 0;
     [[nodiscard]] virtual double cells() const = 0;
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "phasefield/fem/component_field.h"
+#include "phasefield/fem/reduction.h"
 #include "phasefield/fem/same_cell.h"
 #include "phasefield/layer/boundary_flux.h"
 #include "phasefield/schemes/paper/surface_transport.h"
@@ -18,7 +19,7 @@ LayerIntegrals integrate_layer(const Spaces& spaces, const State& state, const P
     OldFields fields(spaces, parameters, quadrature);
     ComponentField molecules(spaces.molecules, concentration, quadrature);
     CoupledPoints points;
-    std::vector<double> sums(3, 0.0);
+    LayerIntegrals out{};
     for (const auto& cell : spaces.flow.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         fields.evaluate_cell(cell, state, points);
@@ -27,13 +28,13 @@ LayerIntegrals integrate_layer(const Spaces& spaces, const State& state, const P
             const auto& p = points[q];
             const double weight =
                 0.5 * two_pi * p.measure * layer_weight(p.layer.gradient, parameters.phase_field.epsilon);
-            sums[0] += weight;
-            sums[1] += weight * c.value[q];
-            sums[2] += weight * p.stretching;
+            out.area += weight;
+            out.molecules += weight * c.value[q];
+            out.stretching += weight * p.stretching;
         }
     }
-    dealii::Utilities::MPI::sum(sums, spaces.flow.dofs.get_communicator(), sums);
-    return {sums[0], sums[1], sums[2]};
+    sum_over_processes({&out.area, &out.molecules, &out.stretching}, spaces.flow.dofs.get_communicator());
+    return out;
 }
 
 StepDiagnostics diagnose_step(const Spaces& spaces, const State& before, const State& state, double tau,
@@ -48,7 +49,7 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const State& before, const S
     ComponentField molecules(spaces.molecules, concentration, quadrature);
     dealii::Vector<double> values(spaces.flow.element.n_dofs_per_cell());
     CoupledPoints points;
-    std::vector<double> sums(6, 0.0), maxima(4, 0.0);
+    StepDiagnostics out{};
     for (const auto& cell : spaces.flow.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         const CellBox box = cell_box(cell);
@@ -63,31 +64,37 @@ StepDiagnostics diagnose_step(const Spaces& spaces, const State& before, const S
         for (std::size_t q = 0; q < points.size(); ++q) {
             const auto& p = points[q];
             const double w = two_pi * p.measure, hoop = ur.value[q] / p.r, shear = ur.z[q] + uz.r[q];
-            sums[0] += w * energy_density(p.moment, p.bending.stiffness, epsilon);
-            sums[1] += w * p.viscosity * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
-            sums[2] += w * numerics.paper.mobility * g.value[q] * g.value[q];
-            sums[3] += w * lambda.value[q] * p.layer.gradient *
-                       surface_divergence(p.layer.normal_r, p.layer.normal_z, ur.r[q], hoop, uz.z[q], shear);
+            out.bending_energy += w * energy_density(p.moment, p.bending.stiffness, epsilon);
+            out.viscous_dissipation +=
+                w * p.viscosity * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
+            out.mobility_dissipation += w * numerics.paper.mobility * g.value[q] * g.value[q];
+            out.tension_power += w * lambda.value[q] * p.layer.gradient *
+                                 surface_divergence(p.layer.normal_r, p.layer.normal_z, ur.r[q], hoop, uz.z[q], shear);
             const double e = concentration_force(p.phi.value, p.moment, p.bending, epsilon).value;
-            sums[4] += w * (g.value[q] * p.phi.z + e * p.c_z);
+            out.net_vertical_force += w * (g.value[q] * p.phi.z + e * p.c_z);
             if (tau > 0)
-                sums[5] += w * e * ((c.value[q] - c_old.value[q]) / tau + ur.value[q] * p.c_r + uz.value[q] * p.c_z);
+                out.transport_power +=
+                    w * e * ((c.value[q] - c_old.value[q]) / tau + ur.value[q] * p.c_r + uz.value[q] * p.c_z);
             if (std::abs(p.phi.value) > layer_edge) continue;
             const double equilibrium = (1 - p.phi.value * p.phi.value) * inverse_sqrt2 / epsilon;
             const double gradient = std::max(std::hypot(phi_old.r[q], phi_old.z[q]), 0.1 * equilibrium);
             const double thickness_error = std::abs(p.layer.gradient / equilibrium - 1);
-            maxima[0] = std::max(maxima[0], std::abs(p.stretching - 1));
-            if (std::abs(p.phi.value) < layer_middle) maxima[1] = std::max(maxima[1], thickness_error);
-            maxima[2] = std::max(maxima[2], thickness_error);
-            maxima[3] = std::max(maxima[3], std::abs(p.phi.value - phi_old.value[q]) / gradient);
+            out.area_strain_max = std::max(out.area_strain_max, std::abs(p.stretching - 1));
+            if (std::abs(p.phi.value) < layer_middle)
+                out.thickness_error_max = std::max(out.thickness_error_max, thickness_error);
+            out.profile_error_max = std::max(out.profile_error_max, thickness_error);
+            out.motion_max = std::max(out.motion_max, std::abs(p.phi.value - phi_old.value[q]) / gradient);
         }
     }
     const MPI_Comm communicator = spaces.flow.dofs.get_communicator();
-    dealii::Utilities::MPI::sum(sums, communicator, sums);
-    dealii::Utilities::MPI::max(maxima, communicator, maxima);
-    const double inflow =
+    sum_over_processes({&out.bending_energy, &out.viscous_dissipation, &out.mobility_dissipation, &out.tension_power,
+                        &out.net_vertical_force, &out.transport_power},
+                       communicator);
+    largest_of_processes({&out.area_strain_max, &out.thickness_error_max, &out.profile_error_max, &out.motion_max},
+                         communicator);
+    out.extracellular_inflow =
         extracellular_inflow(spaces.flow, state.flow, u_r, u_z, phi, [](double value) { return value; });
-    return {sums[0], sums[1], sums[2], sums[3], sums[5], maxima[0], maxima[1], maxima[2], maxima[3], sums[4], inflow};
+    return out;
 }
 
 }  // namespace endoflow::phasefield::paper

@@ -38,7 +38,7 @@ EquationPattern::EquationPattern(const Parameters& p, const BendingModel& model)
     // Values without special meaning: everything that can depend on something does.
     PointValues values;
     for (unsigned int f = 0; f < n_fields; ++f) values[f] = {0.31 + 0.05 * f, 0.27 + 0.03 * f, 0.41 - 0.02 * f};
-    PointHistory past;
+    PointPast past;
     past.normal = past.molecules_normal = {0.6, 0.8};
     const auto rows = point_equations(fields_from<FeatureDual>(values), 3.0, past, {0.3, 0.2},
                                       {1.0, p.phase_field, p.fluid, p.molecules, {}}, model);
@@ -56,7 +56,7 @@ namespace {
 /// The equations at the quadrature points of one cell after the other.
 class CellEquations {
   public:
-    CellEquations(const Space& space, const BendingModel& model, const StepNumbers& step, const StepHistory& history,
+    CellEquations(const Space& space, const BendingModel& model, const StepNumbers& step, const StepPast& history,
                   const Vector& iterate)
         : quadrature(gauss_points(step.numerics)),
           local(space, quadrature, distance),
@@ -94,7 +94,7 @@ class CellEquations {
 
   private:
     template <class Number>
-    void take_off(const PointValues& solution, double r, const PointHistory& past, const GradientChange& change,
+    void take_off(const PointValues& solution, double r, const PointPast& past, const GradientChange& change,
                   Fields<Number>& rows) const {
         const auto own = point_equations(fields_from<double>(solution), r, past, change, *step_, *model_);
         for (unsigned int f = 0; f < n_fields; ++f) {
@@ -107,7 +107,7 @@ class CellEquations {
     const BendingModel* model_;
     const StepNumbers* step_;
     const Vector* iterate_;
-    const StepHistory* history_;
+    const StepPast* history_;
     dealii::Vector<double> values_;
 };
 
@@ -157,20 +157,20 @@ void assemble_cells(const Space& space, const EquationPattern& pattern, CellEqua
 }  // namespace
 
 void assemble(const Space& space, const EquationPattern& pattern, const BendingModel& model, const StepNumbers& step,
-              const StepHistory& history, const Vector& iterate, CondensedSystem& system) {
+              const StepPast& history, const Vector& iterate, CondensedSystem& system) {
     system.start();
     assemble_cells<FeatureDual>(space, pattern, CellEquations(space, model, step, history, iterate), system);
 }
 
 void assemble_residual(const Space& space, const EquationPattern& pattern, const BendingModel& model,
-                       const StepNumbers& step, const StepHistory& history, const Vector& iterate,
+                       const StepNumbers& step, const StepPast& history, const Vector& iterate,
                        CondensedSystem& system) {
     system.start_right_hand_side();
     assemble_cells<double>(space, pattern, CellEquations(space, model, step, history, iterate), system);
 }
 
 double net_vertical_force(const Space& space, const BendingModel& model, const StepNumbers& step,
-                          const StepHistory& history, const Vector& solution) {
+                          const StepPast& history, const Vector& solution) {
     CellEquations equations(space, model, step, history, solution);
     double sum = 0;
     for (const auto& cell : space.dofs.active_cell_iterators())

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "phasefield/fem/local_system.h"
-#include "phasefield/schemes/production/step_history.h"
+#include "phasefield/schemes/production/past.h"
 #include "phasefield/solver/condensed_system.h"
 
 namespace endoflow::phasefield::production {
@@ -20,16 +20,16 @@ class EquationPattern {
 
 /// Jacobian and −residual of the coupled equations at `iterate` into `system`.
 void assemble(const Space& space, const EquationPattern& pattern, const BendingModel& model, const StepNumbers& step,
-              const StepHistory& history, const Vector& iterate, CondensedSystem& system);
+              const StepPast& history, const Vector& iterate, CondensedSystem& system);
 
 /// −residual alone; the Jacobian stays what it was.
 void assemble_residual(const Space& space, const EquationPattern& pattern, const BendingModel& model,
-                       const StepNumbers& step, const StepHistory& history, const Vector& iterate,
+                       const StepNumbers& step, const StepPast& history, const Vector& iterate,
                        CondensedSystem& system);
 
 /// The membrane's net vertical force on the fluid [pN]: it balances what the pinned rim exerts. Collective.
 double net_vertical_force(const Space& space, const BendingModel& model, const StepNumbers& step,
-                          const StepHistory& history, const Vector& solution);
+                          const StepPast& history, const Vector& solution);
 
 /// Gauss points per direction.
 unsigned int gauss_points(const PhaseFieldParameters& parameters);

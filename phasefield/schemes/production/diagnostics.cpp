@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "phasefield/fem/component_field.h"
+#include "phasefield/fem/reduction.h"
 #include "phasefield/schemes/production/assembly.h"
 
 namespace endoflow::phasefield::production {
@@ -20,7 +21,8 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
     ComponentField molecule_rate(space, molecule_density, quadrature);
     ComponentField old_distance(space, distance, quadrature), predicted_distance(space, distance, quadrature);
     dealii::Vector<double> values(space.element.n_dofs_per_cell());
-    std::vector<double> sums(8, 0.0), maxima(5, 0.0);
+    SolutionMeasures out{};
+    auto& [integrals, diagnostics, difference] = out;
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         const CellBox box = cell_box(cell);
@@ -44,32 +46,38 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
             const double hoop = ur.value[q] / r, shear = ur.z[q] + uz.r[q];
             const double stretching =
                 surface_divergence(psi.r[q] / length, psi.z[q] / length, ur.r[q], hoop, uz.z[q], shear);
-            sums[0] += w * layer.delta;
-            sums[1] += w * density * c.value[q];
-            sums[2] += w * density * s.value[q];
-            sums[3] += w * 0.5 * layer.delta * bending.beta * K * K;
-            sums[4] += w * nu * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
+            integrals.area += w * layer.delta;
+            integrals.molecules += w * density * c.value[q];
+            integrals.stretching += w * density * s.value[q];
+            diagnostics.bending_energy += w * 0.5 * layer.delta * bending.beta * K * K;
+            diagnostics.viscous_dissipation +=
+                w * nu * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
             if (step.fluid.dynamics == Dynamics::geometric)
-                sums[5] += w * step.fluid.normal_mobility * g.value[q] * g.value[q] * density;
-            sums[6] += w * (density * lambda.value[q] * stretching -
-                            layer.delta * layer_pressure.value[q] * (ur.r[q] + hoop + uz.z[q]));
+                diagnostics.mobility_dissipation += w * step.fluid.normal_mobility * g.value[q] * g.value[q] * density;
+            diagnostics.tension_power += w * (density * lambda.value[q] * stretching -
+                                              layer.delta * layer_pressure.value[q] * (ur.r[q] + hoop + uz.z[q]));
             const double e = molecular_energy(b.value[q], K, bending);
-            sums[7] += w * density * e * (c_rate.value[q] + ur.value[q] * c.r[q] + uz.value[q] * c.z[q]);
+            diagnostics.transport_power +=
+                w * density * e * (c_rate.value[q] + ur.value[q] * c.r[q] + uz.value[q] * c.z[q]);
             if (std::abs(layer.phi) > layer_edge) continue;
-            maxima[0] = std::max(maxima[0], std::abs(s.value[q] - 1));
+            diagnostics.area_strain_max = std::max(diagnostics.area_strain_max, std::abs(s.value[q] - 1));
             const double thickness_error = std::abs(gradient - 1);
-            if (std::abs(layer.phi) < layer_middle) maxima[1] = std::max(maxima[1], thickness_error);
-            maxima[2] = std::max(maxima[2], thickness_error);
-            maxima[3] = std::max(maxima[3], std::abs(psi.value[q] - old_psi.value[q]));
-            maxima[4] = std::max(maxima[4], std::abs(psi.value[q] - guess.value[q]));
+            if (std::abs(layer.phi) < layer_middle)
+                diagnostics.thickness_error_max = std::max(diagnostics.thickness_error_max, thickness_error);
+            diagnostics.profile_error_max = std::max(diagnostics.profile_error_max, thickness_error);
+            diagnostics.motion_max = std::max(diagnostics.motion_max, std::abs(psi.value[q] - old_psi.value[q]));
+            difference = std::max(difference, std::abs(psi.value[q] - guess.value[q]));
         }
     }
     const MPI_Comm communicator = space.dofs.get_communicator();
-    dealii::Utilities::MPI::sum(sums, communicator, sums);
-    dealii::Utilities::MPI::max(maxima, communicator, maxima);
-    return {{sums[0], sums[1], sums[2]},
-            {sums[3], sums[4], sums[5], sums[6], sums[7], maxima[0], maxima[1], maxima[2], maxima[3]},
-            maxima[4]};
+    sum_over_processes({&integrals.area, &integrals.molecules, &integrals.stretching, &diagnostics.bending_energy,
+                        &diagnostics.viscous_dissipation, &diagnostics.mobility_dissipation, &diagnostics.tension_power,
+                        &diagnostics.transport_power},
+                       communicator);
+    largest_of_processes({&diagnostics.area_strain_max, &diagnostics.thickness_error_max,
+                          &diagnostics.profile_error_max, &diagnostics.motion_max, &difference},
+                         communicator);
+    return out;
 }
 
 SolutionMeasures measure_solution(const Space& space, const BendingModel& model, const StepNumbers& step,

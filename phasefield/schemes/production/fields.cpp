@@ -4,12 +4,117 @@
 #include <cmath>
 #include <optional>
 
+#include "shared/model/initial_condition.h"
+
 namespace endoflow::phasefield::production {
 
+namespace {
+
+using Held = std::optional<double>;
+using BoundaryId = dealii::types::boundary_id;
+using Numerics = PhaseFieldParameters;
+
+unsigned int degree_of(int degree) {
+    return static_cast<unsigned int>(degree);
+}
+
+/// Where the pin band, or the whole layer, meets the side wall.
+bool at_rim(BoundaryId boundary, double above, double half_width) {
+    return boundary == side && std::abs(above) * (1 - 1e-12) <= half_width;
+}
+double layer_half_width(const Parameters& p) {
+    return std::max(p.domain.pin_half_width, p.phase_field.band_width * p.phase_field.epsilon);
+}
+
+bool without_flow(const Parameters& p) {
+    return p.fluid.dynamics != Dynamics::flow;
+}
+bool without_tension(const Parameters& p) {
+    return without_flow(p) || !p.membrane.inextensible;
+}
+
+double flat_moment(double r, double /*above*/, const Parameters& p, const BendingModel& model) {
+    const double c = initial_concentration(p.molecules, r);
+    return model.stiffness(c).value * model.spontaneous_curvature(c).value;
+}
+
+Held no_radial_velocity(BoundaryId boundary, double /*above*/, const Parameters& /*p*/) {
+    return boundary == axis ? Held(0) : std::nullopt;
+}
+Held pinned(BoundaryId boundary, double above, const Parameters& p) {
+    return at_rim(boundary, above, p.domain.pin_half_width) ? Held(0) : std::nullopt;
+}
+Held flat_at_rim(BoundaryId boundary, double above, const Parameters& p) {
+    return at_rim(boundary, above, layer_half_width(p)) ? Held(-above) : std::nullopt;
+}
+Held no_force_at_rim(BoundaryId boundary, double above, const Parameters& p) {
+    return at_rim(boundary, above, layer_half_width(p)) ? Held(0) : std::nullopt;
+}
+Held unstretched_at_side(BoundaryId boundary, double /*above*/, const Parameters& /*p*/) {
+    return boundary == side ? Held(1) : std::nullopt;
+}
+
+double height_below(double /*r*/, double above, const Parameters& /*p*/, const BendingModel& /*model*/) {
+    return -above;
+}
+double patch(double r, double /*above*/, const Parameters& p, const BendingModel& /*model*/) {
+    return initial_concentration(p.molecules, r);
+}
+double one(double /*r*/, double /*above*/, const Parameters& /*p*/, const BendingModel& /*model*/) {
+    return 1;
+}
+
+unsigned int of_velocity(const Numerics& p) {
+    return degree_of(p.velocity_degree);
+}
+unsigned int of_pressure(const Numerics& p) {
+    return degree_of(p.velocity_degree) - 1;
+}
+unsigned int of_tension(const Numerics& p) {
+    return degree_of(p.tension_degree);
+}
+unsigned int of_shape(const Numerics& p) {
+    return degree_of(p.degree);
+}
+unsigned int of_surface(const Numerics& p) {
+    return degree_of(p.surface_degree);
+}
+
+}  // namespace
+
+const std::array<Unknown, n_fields>& unknowns() {
+    // λ = 0 at the rim is natural.
+    static const std::array<Unknown, n_fields> table{{
+        {velocity_r, "velocity", of_velocity, no_radial_velocity, nullptr, without_flow},
+        {velocity_z, "velocity", of_velocity, pinned, nullptr, without_flow},
+        {pressure, "pressure_outside_layer", of_pressure, nullptr, nullptr, without_flow},
+        {pressure_layer, "layer_pressure", of_tension, nullptr, nullptr, without_flow},
+        {tension, "lambda", of_tension, nullptr, nullptr, without_tension},
+        {distance, "distance", of_shape, flat_at_rim, height_below, nullptr},
+        {normal_force, "normal_force", of_shape, no_force_at_rim, nullptr, nullptr},
+        {moment, "moment", of_shape, nullptr, flat_moment, nullptr},
+        {molecule_density, "c", of_surface, nullptr, patch, nullptr},
+        {molecule_potential, "chemical_potential", of_surface, nullptr, nullptr, nullptr},
+        {membrane_stretch, "stretching", of_surface, unstretched_at_side, one, without_flow},
+    }};
+    return table;
+}
+
 std::vector<unsigned int> field_degrees(const PhaseFieldParameters& p) {
-    const auto k = static_cast<unsigned int>(p.degree), ku = static_cast<unsigned int>(p.velocity_degree),
-               kt = static_cast<unsigned int>(p.tension_degree), ks = static_cast<unsigned int>(p.surface_degree);
-    return {ku, ku, ku - 1, kt, kt, k, k, k, ks, ks, ks};
+    std::vector<unsigned int> degrees;
+    for (const auto& unknown : unknowns()) degrees.push_back(unknown.degree(p));
+    return degrees;
+}
+
+Vector initial_fields(const Space& space, const Parameters& p, const BendingModel& model) {
+    Vector out = space.vector();
+    for (const auto& unknown : unknowns())
+        if (unknown.initial != nullptr)
+            interpolate(
+                space, unknown.field,
+                [&](double r, double z) { return unknown.initial(r, z - p.domain.membrane_height, p, model); }, out);
+    finish_interpolation(space, out);
+    return out;
 }
 
 ContourFields contour_fields(const Space& space, const Vector& solution) {
@@ -19,30 +124,23 @@ ContourFields contour_fields(const Space& space, const Vector& solution) {
 namespace {
 
 /// The value that an unknown at height z on a boundary is held at, if it is.
-std::optional<double> boundary_value(dealii::types::boundary_id boundary, unsigned int component, double z,
-                                     const Parameters& p) {
-    const double above = z - p.domain.membrane_height, height = std::abs(above) * (1 - 1e-12);
-    const double layer = std::max(p.domain.pin_half_width, p.phase_field.band_width * p.phase_field.epsilon);
-    if (component == velocity_r && boundary == axis) return 0;
-    if (boundary != side) return {};
-    if (component == membrane_stretch) return 1;
-    if (component == velocity_z && height <= p.domain.pin_half_width) return 0;
-    if (component == normal_force && height <= layer) return 0;
-    if (component == distance && height <= layer) return -above;
-    return {};
+Held boundary_value(BoundaryId boundary, unsigned int component, double z, const Parameters& p) {
+    const auto held = unknowns()[component].held;
+    return held == nullptr ? std::nullopt : held(boundary, z - p.domain.membrane_height, p);
 }
 
 }  // namespace
 
 void close_constraints(Space& space, const Parameters& p) {
-    const bool flow = p.fluid.dynamics == Dynamics::flow;
     for_boundary_unknowns(space, [&](dealii::types::boundary_id boundary, unsigned int component,
                                      dealii::types::global_dof_index index, double z) {
         if (boundary_value(boundary, component, z, p) && !space.constraints.is_constrained(index))
             space.constraints.add_line(index);
     });
-    if (!flow) switch_off(space, {velocity_r, velocity_z, pressure, pressure_layer, tension, membrane_stretch});
-    if (flow && !p.membrane.inextensible) switch_off(space, {tension});
+    std::vector<unsigned int> off;
+    for (const auto& unknown : unknowns())
+        if (unknown.switched_off != nullptr && unknown.switched_off(p)) off.push_back(unknown.field);
+    switch_off(space, off);
     space.constraints.close();
 }
 

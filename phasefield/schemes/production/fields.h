@@ -1,9 +1,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <vector>
 
 #include "phasefield/contour/cell_contour.h"
 #include "phasefield/fem/space.h"
+#include "shared/model/bending_model.h"
 #include "shared/parameters/parameters.h"
 
 namespace endoflow::phasefield::production {
@@ -33,15 +36,32 @@ struct AtPoint {
 template <class Number>
 using Fields = std::array<AtPoint<Number>, n_fields>;
 
+/// All that is said of an unknown besides its equation. Absent functions: held nowhere, zero at first, always solved
+/// for.
+struct Unknown {
+    Field field;
+    const char* output_name;  // "velocity" twice: a vector's components
+    unsigned int (*degree)(const PhaseFieldParameters&);
+    /// The value it is held at on a boundary, `above` the membrane's flat height [nm], if it is.
+    std::optional<double> (*held)(dealii::types::boundary_id, double above, const Parameters&) = nullptr;
+    /// At radius r, `above` the flat membrane [nm].
+    double (*initial)(double r, double above, const Parameters&, const BendingModel&) = nullptr;
+    bool (*switched_off)(const Parameters&) = nullptr;
+};
+
+/// In the order of Field; the space, its constraints, the start and the output read this table.
+const std::array<Unknown, n_fields>& unknowns();
+
 /// Polynomial degrees in the order of Field.
 std::vector<unsigned int> field_degrees(const PhaseFieldParameters& parameters);
+
+/// The flat membrane with its patch of molecules at rest.
+Vector initial_fields(const Space& space, const Parameters& parameters, const BendingModel& model);
 
 /// Where the membrane and the fields on it are found.
 ContourFields contour_fields(const Space& space, const Vector& solution);
 
-/// Closes the constraints (values of the increments): u_r = 0 on the axis; on r = R s = 1, u_z = 0 in the pin band, ψ
-/// fixed and no G across the whole layer. λ = 0 at the rim is natural. Without flow (geometric dynamics) u, p and λ are
-/// switched off; without inextensibility λ is.
+/// Closes the constraints (values of the increments): what is held at boundaries and what is switched off.
 void close_constraints(Space& space, const Parameters& parameters);
 
 /// Sets those values: extrapolation in time would let the smallest deviation grow.

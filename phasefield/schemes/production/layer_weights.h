@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "phasefield/layer/profile.h"
+#include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/dual.h"
 #include "phasefield/schemes/production/membrane_weight.h"
 
@@ -11,7 +12,7 @@ namespace endoflow::phasefield::production {
 
 // Functions of ψ across the layer: its profile, the membrane's weight δ_m and its integral, the energy's weight.
 
-inline constexpr double weight_cut = 1e-4;       // of (1 − φ²)², below which δ_m is cut off
+inline constexpr double weight_cut = constant("weight_cut");
 inline const double energy_norm = cut_norm({});  // 1/∫ δ²/(δ + f) dψ
 
 /// φ, δ, δ' and the rest that only depend on ψ.

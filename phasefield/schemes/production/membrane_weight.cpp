@@ -10,11 +10,11 @@ namespace endoflow::phasefield::production {
 
 namespace {
 
-constexpr double smallest_square = -5.2;    // just below the zero for equal viscosities
-constexpr double monotonic_square = -1.25;  // H_m stays within ±½ from here on
-constexpr double equal_viscosities = 1e-3;  // relative difference below which the excess fluidity is round-off
-constexpr double smallest_viscosity = 0.5;  // in the layer, of the smaller one
-constexpr double nearly_one = 1 - 1e-9;     // the integrands tend to 0 there, as 0/0
+constexpr double smallest_square = constant("smallest_square");
+constexpr double monotonic_square = constant("monotonic_square");
+constexpr double equal_viscosities = constant("equal_viscosities");
+constexpr double smallest_viscosity = constant("smallest_viscosity");
+constexpr double nearly_one = 1 - 1e-9;  // the integrands tend to 0 there, as 0/0
 
 MembraneWeight weight_of(double square) {
     return {1 - square / 5, square};

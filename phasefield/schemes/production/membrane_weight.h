@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasefield/schemes/production/constants.h"
 #include "shared/parameters/parameters.h"
 
 namespace endoflow::phasefield::production {
@@ -12,7 +13,7 @@ struct MembraneWeight {
 
 /// f of what is cut off in the tails, δ → δ²/(δ + f), as part of max δ: 4 ε from the membrane normals may cross, and
 /// forces there make Newton's method fail.
-inline constexpr double tail_cut = 1e-3;
+inline constexpr double tail_cut = constant("tail_cut");
 
 /// 1/∫ δ_m δ/(δ + f) dψ, so that the integral over the layer stays one.
 double cut_norm(const MembraneWeight& weight);

@@ -1,6 +1,7 @@
 #include <deal.II/distributed/solution_transfer.h>
 
 #include "phasefield/checkpoint/mesh_checkpoint.h"
+#include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/production_scheme.h"
 #include "phasefield/schemes/production/refinement.h"
 
@@ -10,7 +11,7 @@ namespace {
 
 using Transfer = dealii::parallel::distributed::SolutionTransfer<2, Vector>;
 
-constexpr int most_passes = 8;  // a cell changes by one level per pass
+constexpr int most_passes = count("most_passes");
 
 std::vector<const Vector*> addresses(const std::vector<Vector>& vectors) {
     std::vector<const Vector*> out;

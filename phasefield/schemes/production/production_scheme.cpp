@@ -6,6 +6,7 @@
 #include "phasefield/layer/boundary_flux.h"
 #include "phasefield/output/field_file.h"
 #include "phasefield/schemes/production/bdf.h"
+#include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/refinement.h"
 #include "shared/model/initial_condition.h"
 #include "shared/support/error.h"
@@ -14,18 +15,18 @@ namespace endoflow::phasefield::production {
 
 namespace {
 
-constexpr std::size_t highest_order = 3;
-constexpr std::size_t guess_points = 2;  // times from which Newton's method and the normals start
-constexpr double first_steps = 4;        // before the error can be estimated
-constexpr double error_part = 0.05;      // of time.tolerance for one step: the errors of the steps add up
-constexpr double safety = 0.85;          // of the step
-constexpr double largest_growth = 1.5;   // per step
-constexpr double almost_all = 0.7;       // of the time left: one step, or ever shorter ones would approach the end
-constexpr double tolerated_excess = 2;   // of the error over its tolerance, beyond which a step is repeated
-constexpr double newton_part = 0.002;    // of the step's tolerance to which Newton's method converges
-constexpr double smallest_step = 1e-5;   // of the first one
-constexpr double relaxation_per_speed = 2000;  // M is at most this many times the speed of the membrane
-constexpr double largest_motion = 1.5;         // of the membrane in one step [ε]
+constexpr std::size_t highest_order = count("highest_order");
+constexpr std::size_t guess_points = count("guess_points");
+constexpr double first_steps = constant("first_steps");
+constexpr double error_part = constant("error_part");
+constexpr double safety = constant("safety");
+constexpr double largest_growth = constant("largest_growth");
+constexpr double almost_all = constant("almost_all");
+constexpr double tolerated_excess = constant("tolerated_excess");
+constexpr double newton_part = constant("newton_part");
+constexpr double smallest_step = constant("smallest_step");
+constexpr double relaxation_per_speed = constant("relaxation_per_speed");
+constexpr double largest_motion = constant("largest_motion");
 
 /// Largest error of the membrane's position per step [nm].
 double position_tolerance(const Parameters& p) {
@@ -104,21 +105,7 @@ StepOutcome ProductionScheme::start() {
     while (flag_bands(*mesh_, refined_bands(curve, parameters_))) mesh_->execute_coarsening_and_refinement();
     renew();
 
-    Vector solution = space_.vector();
-    const auto c = [&](double r) { return initial_concentration(parameters_.molecules, r); };
-    interpolate(
-        space_, distance, [&](double, double z) { return z0 - z; }, solution);
-    interpolate(
-        space_, molecule_density, [&](double r, double) { return c(r); }, solution);
-    interpolate(
-        space_, membrane_stretch, [](double, double) { return 1.0; }, solution);
-    interpolate(
-        space_, moment,
-        [&](double r, double) {  // of a flat membrane
-            return model_.stiffness(c(r)).value * model_.spontaneous_curvature(c(r)).value;
-        },
-        solution);
-    finish_interpolation(space_, solution);
+    const Vector solution = initial_fields(space_, parameters_, model_);
     solutions_ = {solution};
     solutions_.front().update_ghost_values();
     times_ = {0};
@@ -158,8 +145,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     trial_.reinit(guess, true);  // assignment alone could keep the ghosts of an earlier mesh
     trial_ = guess;
     trial_.update_ghost_values();
-    const StepHistory history(space_, numbers_, solutions_, bdf.past, extrapolation_weights(end, times_, order()),
-                              guess);
+    const StepPast history(space_, numbers_, solutions_, bdf.past, extrapolation_weights(end, times_, order()), guess);
     solver_.solve(space_, numbers_, history, trial_);
 
     Vector rate = space_.vector();
@@ -220,19 +206,23 @@ void ProductionScheme::reject(double time, double tau) {
                           "use a smaller phase_field.cell_size or a larger phase_field.production.profile_relaxation");
 }
 
+std::vector<NamedNumber> ProductionScheme::constants() const {
+    std::vector<NamedNumber> out;
+    for (const auto& row : production::constants) out.push_back({std::string(row.name), row.value});
+    return out;
+}
+
 void ProductionScheme::write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
                                     double time) const {
     using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
     std::vector<Interpretation> meaning(n_fields, dealii::DataComponentInterpretation::component_is_scalar);
     meaning[velocity_r] = meaning[velocity_z] = dealii::DataComponentInterpretation::component_is_part_of_vector;
+    std::vector<std::string> names;
+    for (const auto& unknown : production::unknowns()) names.emplace_back(unknown.output_name);
     dealii::DataOut<2> data;
     const Vector solution = polynomial(time, times_.size());
     const PhysicalFields physical(parameters_.phase_field.epsilon);
-    data.add_data_vector(
-        space_.dofs, solution,
-        std::vector<std::string>{"velocity", "velocity", "pressure_outside_layer", "layer_pressure", "lambda",
-                                 "distance", "normal_force", "moment", "c", "chemical_potential", "stretching"},
-        meaning);
+    data.add_data_vector(space_.dofs, solution, names, meaning);
     data.add_data_vector(space_.dofs, solution, physical);
     data.build_patches(space_.degrees[distance]);
     write_field_file(run_directory, times, time, mesh_->get_communicator(), data);

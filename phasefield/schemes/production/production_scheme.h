@@ -2,14 +2,14 @@
 
 #include "phasefield/fem/mesh.h"
 #include "phasefield/schemes/interface/scheme.h"
+#include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/diagnostics.h"
 #include "phasefield/schemes/production/step_solver.h"
 
 namespace endoflow::phasefield::production {
 
-/// Largest cells in the layer, in units of ε: they resolve the distance, which is smooth (the patch's edge is refined
-/// by itself).
-inline constexpr double cell_per_epsilon = 4.0 / 3;
+/// Cells in the layer, in units of ε, where phase_field.cell_size is 0.
+inline constexpr double cell_per_epsilon = constant("cell_per_epsilon");
 
 /// All fields at one time level are solved for together by Newton's method; BDF3 in time with the error of ψ
 /// controlled.
@@ -32,6 +32,7 @@ class ProductionScheme : public Scheme {
                       double time) const override;
     [[nodiscard]] double unknowns() const override { return static_cast<double>(space_.dofs.n_dofs()); }
     [[nodiscard]] double cells() const override { return static_cast<double>(mesh_->n_global_active_cells()); }
+    [[nodiscard]] std::vector<NamedNumber> constants() const override;
     /// So far.
     [[nodiscard]] unsigned int factorisations() const { return solver_.factorisations(); }
 

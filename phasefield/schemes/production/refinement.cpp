@@ -4,17 +4,19 @@
 #include <cmath>
 #include <numeric>
 
+#include "phasefield/schemes/production/constants.h"
+
 namespace endoflow::phasefield::production {
 
 namespace {
 
-constexpr double edge_cells = 0.75;           // largest cell at the patch's edge, in units of its width
-constexpr double edge_part = 0.47;            // |c − ½| below this is the edge: in the bud 1 − c comes to 0.016
-constexpr double fine_band = 3;               // half-width of the finer cells, in units of ε
-constexpr double neck_cells = 0.25;           // largest cell where the membrane is narrow, in units of its radius there
-constexpr double motion_with_flow = 1.5;      // after which the mesh follows, in units of ε
-constexpr double motion_without_flow = 0.5;   // the same
-constexpr unsigned int most_neck_levels = 2;  // with cells of 4/3 ε: necks below 1.4 ε have left the model anyway
+constexpr double edge_cells = constant("edge_cells");
+constexpr double edge_part = constant("edge_part");
+constexpr double fine_band = constant("fine_band");
+constexpr double neck_cells = constant("neck_cells");
+constexpr double motion_with_flow = constant("motion_with_flow");
+constexpr double motion_without_flow = constant("motion_without_flow");
+constexpr unsigned int most_neck_levels = count("most_neck_levels");
 
 using Indices = std::vector<std::size_t>;
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/diagnostics.h"
 #include "phasefield/solver/anderson.h"
 #include "shared/support/error.h"
@@ -13,13 +14,13 @@ namespace endoflow::phasefield::production {
 
 namespace {
 
-constexpr int most_iterations = 16;       // with the same factors: new ones cost more, but help later steps, too
-constexpr int seen_enough = 3;            // iterations after which the number needed is foreseen
-constexpr double farthest = 0.25;         // from where the factors were made, in units of ε: beyond they do not serve
-constexpr int most_factorisations = 4;    // in one step
-constexpr double fast_contraction = 0.5;  // of the changes by new factors: below it the next change can be foreseen
-constexpr double largest_rest = 0.01;     // of the first increment, in all fields: b follows ψ's second derivatives
-constexpr double most_divergence = 10;    // of a change beyond the first one, where Newton's method gives up
+constexpr int most_iterations = count("most_iterations");
+constexpr int seen_enough = count("seen_enough");
+constexpr double farthest = constant("farthest");
+constexpr int most_factorisations = count("most_factorisations");
+constexpr double fast_contraction = constant("fast_contraction");
+constexpr double largest_rest = constant("largest_rest");
+constexpr double most_divergence = constant("most_divergence");
 constexpr std::size_t vectors_of_guess = 2;  // of an Origin, before the solutions
 
 }  // namespace
@@ -98,7 +99,7 @@ StepSolver::Ending StepSolver::iterate_with_new_factors(const Problem& problem, 
     }
 }
 
-void StepSolver::solve(const Space& space, const StepNumbers& numbers, const StepHistory& history, Vector& solution) {
+void StepSolver::solve(const Space& space, const StepNumbers& numbers, const StepPast& history, Vector& solution) {
     const Problem problem{&space, &numbers, &history};
     const Precision precision = system_.precision();
     const Vector guess = solution;
@@ -153,8 +154,8 @@ void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint&
     numbers.rate = checkpoint.scalar("factors_rate");
     numbers.profile_relaxation = checkpoint.scalar("factors_profile_relaxation");
     const std::vector<Vector> solutions(vectors.begin() + vectors_of_guess, vectors.end());
-    const StepHistory history(space, numbers, solutions, checkpoint.array("factors_weights"),
-                              checkpoint.array("factors_ahead"), vectors[1]);
+    const StepPast history(space, numbers, solutions, checkpoint.array("factors_weights"),
+                           checkpoint.array("factors_ahead"), vectors[1]);
     factorise({&space, &numbers, &history}, vectors[0]);
 }
 

@@ -22,7 +22,7 @@ class StepSolver {
 
     /// `solution` holds the guess, then the solution, both with ghost values.
     /// Throws SolverError("newton-divergence", …); the next call starts with new factors.
-    void solve(const Space& space, const StepNumbers& numbers, const StepHistory& history, Vector& solution);
+    void solve(const Space& space, const StepNumbers& numbers, const StepPast& history, Vector& solution);
 
     /// What the factors were made from, so that a restart goes on with the same ones: vectors on the present mesh, and
     /// numbers. The vectors are addresses of the solver's own.
@@ -41,7 +41,7 @@ class StepSolver {
     struct Problem {
         const Space* space;
         const StepNumbers* numbers;
-        const StepHistory* history;
+        const StepPast* history;
     };
 
     /// What the factors were made from.

@@ -1,4 +1,4 @@
-#include "phasefield/schemes/production/step_history.h"
+#include "phasefield/schemes/production/past.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -11,15 +11,15 @@
 #include "phasefield/contour/contour.h"
 #include "phasefield/fem/scalar_basis.h"
 #include "phasefield/schemes/production/assembly.h"
+#include "phasefield/schemes/production/constants.h"
 
 namespace endoflow::phasefield::production {
 
 namespace {
 
-// Below these values of (1 − φ²)² the closest point's normal takes over. c's, within the layer: the force e ∇c is some
-// 900 pN.
-constexpr double last_normal_below = 1e-3, last_molecules_normal_below = 1e-4;
-constexpr double shortest_gradient = 0.3;  // below it normals fade: they are about to cross
+constexpr double last_normal_below = constant("last_normal_below");
+constexpr double last_molecules_normal_below = constant("last_molecules_normal_below");
+constexpr double shortest_gradient = constant("shortest_gradient");
 
 Direction direction(double r, double z) {
     const double length = std::max(std::hypot(r, z), shortest_gradient);
@@ -27,10 +27,10 @@ Direction direction(double r, double z) {
 }
 
 /// Σ_j a_j y(t_j) and the predicted normals at the quadrature points of one cell.
-class HistoryFields {
+class PastFields {
   public:
-    HistoryFields(const Space& space, const dealii::Quadrature<2>& quadrature, const StepNumbers& step,
-                  const StepHistory& history)
+    PastFields(const Space& space, const dealii::Quadrature<2>& quadrature, const StepNumbers& step,
+               const StepPast& history)
         : space_(&space),
           quadrature_(&quadrature),
           step_(&step),
@@ -42,7 +42,7 @@ class HistoryFields {
     }
 
     void evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell, const CellBox& box,
-                       std::vector<PointHistory>& points) {
+                       std::vector<PointPast>& points) {
         ahead_r_.assign(points.size(), 0);
         ahead_z_.assign(points.size(), 0);
         for (std::size_t j = 0; j < history_->weights.size(); ++j) {
@@ -75,7 +75,7 @@ class HistoryFields {
         evaluate(bases_.at(space_->degrees[component]), box, coefficients_, Derivatives::first, out);
     }
 
-    void add_past(const CellBox& box, double weight, double ahead, std::vector<PointHistory>& points) {
+    void add_past(const CellBox& box, double weight, double ahead, std::vector<PointPast>& points) {
         field(distance, box, psi_);
         field(molecule_density, box, c_);
         field(membrane_stretch, box, s_);
@@ -100,7 +100,7 @@ class HistoryFields {
     const Space* space_;
     const dealii::Quadrature<2>* quadrature_;
     const StepNumbers* step_;
-    const StepHistory* history_;
+    const StepPast* history_;
     ClosestNormal membrane_;
     std::map<unsigned int, ScalarBasis> bases_;
     dealii::Vector<double> values_;
@@ -110,15 +110,15 @@ class HistoryFields {
 
 }  // namespace
 
-StepHistory::StepHistory(const Space& space, const StepNumbers& step, const std::vector<Vector>& past,
-                         std::vector<double> bdf_weights, std::vector<double> weights_ahead, const Vector& guess)
+StepPast::StepPast(const Space& space, const StepNumbers& step, const std::vector<Vector>& past,
+                   std::vector<double> bdf_weights, std::vector<double> weights_ahead, const Vector& guess)
     : solutions(&past),
       weights(std::move(bdf_weights)),
       ahead(std::move(weights_ahead)),
       extrapolated(&guess),
       points(space.dofs.get_triangulation().n_active_cells()) {
     const dealii::QGauss<2> quadrature(gauss_points(step.numerics));
-    HistoryFields fields(space, quadrature, step, *this);
+    PastFields fields(space, quadrature, step, *this);
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         auto& of_cell = points[cell->active_cell_index()];

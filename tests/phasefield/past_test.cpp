@@ -1,6 +1,6 @@
 // What a step takes from the solutions before it.
 
-#include "phasefield/schemes/production/step_history.h"
+#include "phasefield/schemes/production/past.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -44,7 +44,7 @@ double largest_deviation(double turn) {
         angle -= turn;
     }
     const StepNumbers numbers = step_numbers(p, 2000, 1000);
-    const StepHistory history(space, numbers, past, {-6000, 3000, -667}, {3, -3, 1}, past[0]);
+    const StepPast history(space, numbers, past, {-6000, 3000, -667}, {3, -3, 1}, past[0]);
 
     double largest = 0;
     const dealii::QGauss<2> quadrature(gauss_points(p.phase_field));

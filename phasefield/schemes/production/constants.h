@@ -1,0 +1,91 @@
+#pragma once
+
+#include <stdexcept>
+#include <string_view>
+
+namespace endoflow::phasefield::production {
+
+/// A number of the scheme that is no parameter: docs/phase-field.md says what happens where some of them change.
+struct Constant {
+    std::string_view name;
+    double value;
+    std::string_view unit;
+    std::string_view meaning;
+};
+
+/// All of them; the files that use one take it from here by constant(), and run.json lists them.
+inline constexpr Constant constants[] = {
+    // The equations
+    {"tail_cut", 1e-3, "max δ", "f of the energy's weight δ²/(δ + f): 4 ε from the membrane normals may cross"},
+    {"weight_cut", 1e-4, "(1 − φ²)²", "below it δ_m is cut off"},
+    {"surface_floor", 1e-8, "1/nm", "added to δ, so that G, μ and s are defined everywhere"},
+    {"moment_floor", 4e-5, "nm", "continues b smoothly where the energy has no weight"},
+    {"gradient_floor", 1e-3, "", "of |∇ψ| in the normal"},
+    {"concentration_margin", 0.05, "", "how far beyond 0 and 1 the laws see c"},
+    {"force_alignment", 20, "ε²", "keeps G constant along the normal"},
+    {"moment_alignment", 20, "ε²", "the same for b"},
+    {"step_alignment", 20, "ε²/step", "the same for c and s, and of ∂ψ/∂t"},
+    {"alignment_floor", 1e-4, "(1 − φ²)²", "the same for λ and q"},
+    {"layer_pressure_alignment", 30, "nm³/(pN µs)", "keeps q constant along the normal"},
+    {"pressure_leak", 0.01, "nm/(pN µs)", "∇·u per q: decides between p and δ q"},
+    {"far_part", 1e-7, "M", "with which ψ becomes the distance far from the layer"},
+    {"least_normal_diffusivity", 1.1e5, "nm⁵/µs/ε³", "of c along the normal: 6.4e4 nm²/µs at ε = 1.2 nm"},
+    {"molecule_leak", 1e-3, "nm/µs", "defines c far from the layer"},
+    {"uneven_fade", 20, "1/ε", "∂ₙ∇ψ beyond which the force that balances G's diffusion fades"},
+    // The weight δ_m (membrane_weight.cpp)
+    {"smallest_square", -5.2, "", "of φ² in δ_m: just below the zero for equal viscosities"},
+    {"monotonic_square", -1.25, "", "H_m stays within ±½ from here on"},
+    {"equal_viscosities", 1e-3, "", "relative difference below which the excess fluidity is round-off"},
+    {"smallest_viscosity", 0.5, "", "in the layer, of the smaller one"},
+    // The past of a step (past.cpp)
+    {"last_normal_below", 1e-3, "(1 − φ²)²", "below it the last solution's closest normal takes over"},
+    {"last_molecules_normal_below", 1e-4, "(1 − φ²)²",
+     "the same for c, within the layer: the force e ∇c is some 900 pN"},
+    {"shortest_gradient", 0.3, "", "below it normals fade: they are about to cross"},
+    // Steps (production_scheme.cpp)
+    {"highest_order", 3, "", "of BDF"},
+    {"guess_points", 2, "", "times from which Newton's method and the normals start"},
+    {"first_steps", 4, "", "before the error can be estimated"},
+    {"error_part", 0.05, "time.tolerance", "error of one step: the errors of the steps add up"},
+    {"safety", 0.85, "", "of the step"},
+    {"largest_growth", 1.5, "", "of the step, per step"},
+    {"almost_all", 0.7, "", "of the time left: one step, or ever shorter ones would approach the end"},
+    {"tolerated_excess", 2, "", "of the error over its tolerance, beyond which a step is repeated"},
+    {"smallest_step", 1e-5, "time.initial_step", "below it the run ends"},
+    {"relaxation_per_speed", 2000, "", "M is at most this many times the speed of the membrane"},
+    {"largest_motion", 1.5, "ε", "of the membrane in one step"},
+    // Newton's method (step_solver.cpp)
+    {"newton_part", 0.002, "the step's tolerance", "to which Newton's method converges"},
+    {"most_iterations", 16, "", "with the same factors: new ones cost more, but help later steps, too"},
+    {"seen_enough", 3, "", "iterations after which the number needed is foreseen"},
+    {"farthest", 0.25, "ε", "from where the factors were made: beyond they do not serve"},
+    {"most_factorisations", 4, "", "in one step"},
+    {"fast_contraction", 0.5, "", "of the changes by new factors: below it the next change can be foreseen"},
+    {"largest_rest", 0.01, "", "of the first increment, in all fields: b follows ψ's second derivatives"},
+    {"most_divergence", 10, "", "of a change beyond the first one, where Newton's method gives up"},
+    // The mesh (refinement.cpp, mesh_following.cpp)
+    {"cell_per_epsilon", 4.0 / 3, "ε",
+     "cells in the layer where phase_field.cell_size is 0: they resolve the distance"},
+    {"edge_cells", 0.75, "ε_c", "largest cell at the patch's edge"},
+    {"edge_part", 0.47, "", "|c − ½| below this is the edge: in the bud 1 − c comes to 0.016"},
+    {"fine_band", 3, "ε", "half-width of the finer cells"},
+    {"neck_cells", 0.25, "", "largest cell where the membrane is narrow, in units of its radius there"},
+    {"motion_with_flow", 1.5, "ε", "after which the mesh follows"},
+    {"motion_without_flow", 0.5, "ε", "the same without flow"},
+    {"most_neck_levels", 2, "", "with cells of 4/3 ε: necks below 1.4 ε have left the model anyway"},
+    {"most_passes", 8, "", "of refinement: a cell changes by one level per pass"},
+};
+
+/// The value of a constant; asked at compile time, where a name that is not in the table does not compile.
+consteval double constant(std::string_view name) {
+    for (const auto& row : constants)
+        if (row.name == name) return row.value;
+    throw std::logic_error("no such constant");
+}
+
+/// A constant that counts.
+consteval unsigned int count(std::string_view name) {
+    return static_cast<unsigned int>(constant(name));
+}
+
+}  // namespace endoflow::phasefield::production

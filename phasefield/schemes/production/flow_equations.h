@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cmath>
+
+#include "phasefield/schemes/production/point_geometry.h"
+
+namespace endoflow::phasefield::production {
+
+inline constexpr double layer_pressure_alignment = constant("layer_pressure_alignment");
+inline constexpr double pressure_leak = constant("pressure_leak");
+inline constexpr double uneven_fade = constant("uneven_fade");
+
+/// (32), (33): momentum with the forces δ_m (G ∇ψ + e ∇c) − ∇·(δ_m λ P), and volume. The diffusion of G along the
+/// normal would leave a net force on the membrane where ∇ψ changes along it, D δ ∂ₙG ∂ₙ∇ψ, which is added. With ∂ₙ∇ψ of
+/// an extrapolated ψ, whose tails the layer has reached after a step of ε, some pN would remain. The force's work is
+/// nobody's loss: where layers meet and ψ is no distance it would pump, so it fades there. The pressure in the layer is
+/// p + δ q, q constant along the normal the multiplier of ∫δ ∇·u across the layer: p alone, continuous and quadratic,
+/// cannot follow δ on cells as wide as the layer, and the rest would drive a spurious flow.
+template <class Number>
+void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Number& e, double r, const PointPast& past,
+              const GradientChange& change, const StepNumbers& step, Fields<Number>& row) {
+    const auto &ur = x[velocity_r], &uz = x[velocity_z], &psi = x[distance], &c = x[molecule_density];
+    const auto& G = x[normal_force];
+    const Number g = p.density * G.value, molecular = step.weight.cut * p.density * e;
+    const double kink = uneven_fade * step.numerics.epsilon * std::hypot(change.r, change.z);
+    const Number uneven = (1 / (1 + kink * kink)) * force_diffusivity(p, step.numerics.epsilon) *
+                          (past.normal.r * G.r + past.normal.z * G.z);
+    const Number nu = layer_viscosity(p.layer.phi, step.fluid, step.weight, step.numerics.viscosity_mean);
+    const Number hoop = ur.value / r, divergence = ur.r + hoop + uz.z;
+    const Number isotropic = x[pressure].value + p.layer.delta * x[pressure_layer].value;
+    const Number stretch = p.density * x[tension].value;
+    const Number shear = nu * (ur.z + uz.r) - stretch * p.normal_r * p.normal_z;
+    row[velocity_r] = {(2.0 * nu * hoop - isotropic + stretch) / r - g * psi.r - molecular * c.r - uneven * change.r,
+                       2.0 * nu * ur.r - isotropic + stretch * (1.0 - p.normal_r * p.normal_r), shear};
+    row[velocity_z] = {-g * psi.z - molecular * c.z - uneven * change.z, shear,
+                       2.0 * nu * uz.z - isotropic + stretch * (1.0 - p.normal_z * p.normal_z)};
+    if (step.fluid.inertia) {
+        const double rho = step.fluid.density;
+        row[velocity_r].value += rho * (step.rate * ur.value + past.velocity_r + ur.value * ur.r + uz.value * ur.z);
+        row[velocity_z].value += rho * (step.rate * uz.value + past.velocity_z + ur.value * uz.r + uz.value * uz.z);
+    }
+    row[pressure].value = -divergence;
+    const auto& q = x[pressure_layer];
+    row[pressure_layer].value = -p.layer.delta * (divergence + pressure_leak * q.value);
+    extend_multiplier(q, p, past, layer_pressure_alignment, step.numerics.production.tension_leak, row[pressure_layer]);
+}
+
+/// (34): P:∇u = ζ (s − 1) on the average across the layer. λ is kept constant along the normal by the alignment
+/// [nm³/(pN µs)], so that the membrane is one surface and not a stack of inextensible sheets; the leak [nm³/(pN µs)]
+/// only defines λ far from the layer.
+template <class Number>
+void add_inextensibility(const Fields<Number>& x, const PointGeometry<Number>& p, const PointPast& past, double r,
+                         const StepNumbers& step, Fields<Number>& row) {
+    const auto &ur = x[velocity_r], &uz = x[velocity_z], &lambda = x[tension];
+    const Number& s = x[membrane_stretch].value;
+    const Number stretching = surface_divergence<Number>(p.normal_r, p.normal_z, ur.r, ur.value / r, uz.z, ur.z + uz.r);
+    row[tension].value = p.density * (stretching - step.numerics.production.strain_relaxation * (s - 1.0));
+    extend_multiplier(lambda, p, past, step.numerics.production.tension_alignment,
+                      step.numerics.production.tension_leak, row[tension]);
+}
+
+}  // namespace endoflow::phasefield::production

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cmath>
+
+#include "phasefield/layer/profile.h"
+#include "phasefield/schemes/production/constants.h"
+#include "phasefield/schemes/production/dual.h"
+#include "phasefield/schemes/production/fields.h"
+#include "phasefield/schemes/production/layer_weights.h"
+#include "phasefield/schemes/production/membrane_weight.h"
+#include "shared/parameters/parameters.h"
+
+namespace endoflow::phasefield::production {
+
+/// A unit vector; shorter where normals cross.
+struct Direction {
+    double r = 0, z = 0;
+};
+
+/// What is known at a point besides the iterate: Σ_j a_j y(t_j) of the past for every quantity with a time derivative,
+/// and of the predicted ψ the normal, at which alignment aims.
+struct PointPast {
+    double distance = 0;    // of ψ
+    double indicator = 0;   // of ∫ δ_m dψ
+    double molecules = 0;   // of δ_m c
+    double stretching = 0;  // of δ_m s
+    double velocity_r = 0, velocity_z = 0;
+    Direction normal;                 // n = ∇ψ/|∇ψ|; far from the membrane that of its closest point
+    Direction molecules_normal;       // the same with the error of BDF, for c
+    double slope_r = 0, slope_z = 0;  // ∇Σ_j a_j ψ(t_j)
+};
+
+/// n·∇∇ψ [1/nm] with the predicted n: how ∇ψ changes along the normal, 0 where ψ is a distance. The Jacobian holds it
+/// fixed.
+struct GradientChange {
+    double r = 0, z = 0;
+};
+
+/// Numbers of one step.
+struct StepNumbers {
+    double rate = 0;  // a₀ [1/µs]
+    PhaseFieldParameters numerics;
+    FluidParameters fluid;
+    MoleculeParameters molecules;
+    MembraneWeight weight;
+    double profile_relaxation = numerics.production.profile_relaxation;  // M of this step [nm/µs]
+};
+
+inline constexpr double surface_floor = constant("surface_floor");
+inline constexpr double gradient_floor = constant("gradient_floor");
+inline constexpr double force_alignment = constant("force_alignment");
+inline constexpr double step_alignment = constant("step_alignment");
+inline constexpr double alignment_floor = constant("alignment_floor");
+
+template <class Number>
+Number inverse_root(const Number& x) {
+    const double f = 1 / std::sqrt(value_of(x));
+    return chain(x, f, -0.5 * f / value_of(x));
+}
+
+/// What the rows share.
+template <class Number>
+struct PointGeometry {
+    LayerProfile<Number> layer;
+    Number surface, density;                                        // δ with a floor, δ_m [1/nm]
+    Number indicator;                                               // ∫ δ_m dψ
+    Number normal_r, normal_z, squared_gradient, inverse_gradient;  // n = ∇ψ/|∇ψ|; |∇ψ|²; 1/|∇ψ|
+};
+
+/// The part of g along the normal, (n n + (1 − |n|²))·g: all of it where normals cross and n vanishes.
+template <class Number>
+Number normal_part(const Direction& n, double n_own, const Number& own, double n_other, const Number& other) {
+    return (1 - n.r * n.r - n.z * n.z + n_own * n_own) * own + (n_own * n_other) * other;
+}
+
+/// D_n ∇·(δ n n·∇y): keeps y constant along the normal, a predicted one, so that the term is linear.
+template <class Number>
+void add_alignment(const AtPoint<Number>& y, const Direction& n, const Number& diffusivity, AtPoint<Number>& row) {
+    row.r += diffusivity * normal_part(n, n.r, y.r, n.z, y.z);
+    row.z += diffusivity * normal_part(n, n.z, y.z, n.r, y.r);
+}
+
+/// D of G [nm²] times δ.
+template <class Number>
+Number force_diffusivity(const PointGeometry<Number>& p, double epsilon) {
+    return (force_alignment * epsilon * epsilon) * p.surface;
+}
+
+template <class Number>
+void add_diffusion(const AtPoint<Number>& y, const Number& diffusivity, AtPoint<Number>& row) {
+    row.r += diffusivity * y.r;
+    row.z += diffusivity * y.z;
+}
+
+/// Multipliers of conditions on the membrane are constant along the normal, and smooth far from the layer.
+template <class Number>
+void extend_multiplier(const AtPoint<Number>& y, const PointGeometry<Number>& p, const PointPast& past,
+                       double alignment, double leak, AtPoint<Number>& row) {
+    const Number phi2 = p.layer.phi * p.layer.phi;
+    add_alignment(y, past.normal, -alignment * (p.layer.squared_well + alignment_floor), row);
+    add_diffusion(y, -leak * (phi2 * phi2), row);
+}
+
+/// A diffusivity along the normal [nm²/µs] made fast within a step: δ_m is negative in the layer's tails, where without
+/// it y would grow.
+inline double within_a_step(double diffusivity, const StepNumbers& step) {
+    return diffusivity + step_alignment * step.numerics.epsilon * step.numerics.epsilon * step.rate;
+}
+
+}  // namespace endoflow::phasefield::production

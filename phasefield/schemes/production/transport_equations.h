@@ -1,0 +1,74 @@
+#pragma once
+
+#include <algorithm>
+
+#include "phasefield/schemes/production/point_geometry.h"
+#include "shared/model/double_well.h"
+
+namespace endoflow::phasefield::production {
+
+inline constexpr double least_normal_diffusivity = constant("least_normal_diffusivity");
+inline constexpr double molecule_leak = constant("molecule_leak");
+
+/// ∂(δ_m y)/∂t + ∇·(δ_m y v), v the fluid's velocity along the membrane and the level sets' own velocity across it. The
+/// two differ where the profile is being restored; with the fluid's velocity alone y would grow in the layer's tails.
+/// Across, δ_m v is −(∂H/∂t) n/|∇ψ| with H = ∫ δ_m dψ, for with BDF's ∂H/∂t a plane membrane keeps a constant y however
+/// far it moves in a step; δ_m ∂ψ/∂t instead leaves an error of the order of (motion/ε)³.
+template <class Number>
+void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry<Number>& p, const PointPast& past,
+                   double weighted_past, const StepNumbers& step, AtPoint<Number>& row) {
+    const auto &ur = x[velocity_r].value, &uz = x[velocity_z].value;
+    const Number density = p.density * y;
+    const Number crossing = step.rate * p.indicator + past.indicator;
+    const Number across = density * (p.normal_r * ur + p.normal_z * uz) + y * crossing * p.inverse_gradient;
+    row.value = step.rate * density + weighted_past;
+    row.r = across * p.normal_r - density * ur;
+    row.z = across * p.normal_z - density * uz;
+}
+
+/// D_n of c [nm²/µs], larger the thinner the layer. The shear within the layer tilts c's level lines off the normal, by
+/// shear rate × ε²/D_n, and the force e ∇c with them: with a constant D_n the volume's error grew as ε fell, and so it
+/// did with normals that lagged behind in the layer's tails by as little as a tenth of a step.
+inline double normal_diffusivity_of_molecules(const StepNumbers& step) {
+    const double epsilon = step.numerics.epsilon, least = least_normal_diffusivity / (epsilon * epsilon * epsilon);
+    return within_a_step(std::max(step.molecules.normal_diffusivity, least), step);
+}
+
+/// (40), (41), or (39), or (14): δ_m c is conserved. The diffusion along the membrane ends where δ_m does: on the
+/// coarse cells beyond, the double well would have several solutions where the layers of bud and plane meet.
+template <class Number>
+void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, const PointPast& past,
+                   const StepNumbers& step, Fields<Number>& row) {
+    const auto &c = x[molecule_density], &mu = x[molecule_potential];
+    add_transport(c.value, x, p, past, past.molecules, step, row[molecule_density]);
+    const Number phi2 = p.layer.phi * p.layer.phi, weight = cut_density(p.layer);
+    add_alignment(c, past.molecules_normal, normal_diffusivity_of_molecules(step) * p.surface, row[molecule_density]);
+    add_diffusion(c, molecule_leak * (phi2 * phi2), row[molecule_density]);
+    row[molecule_potential].value = p.surface * mu.value;
+    if (step.molecules.transport == Transport::cahn_hilliard) {
+        const double width = step.molecules.interface_width;
+        const auto well = double_well(value_of(c.value));
+        add_diffusion(mu, step.molecules.mobility * weight, row[molecule_density]);
+        row[molecule_potential].value =
+            p.surface * mu.value - (1 / width) * p.layer.delta * chain(c.value, well.first, well.second);
+        add_diffusion(c, -width * p.layer.delta, row[molecule_potential]);
+    } else if (step.molecules.transport == Transport::fickian) {
+        add_diffusion(c, step.molecules.diffusivity * weight, row[molecule_density]);
+    }
+}
+
+/// (38): δ_m s is the membrane's material; where it enters at the rim s = 1. The tension holds P:∇u to the average over
+/// a cell; what that leaves within one, most of it at the axis, diffuses as fast as ζ relaxes s.
+template <class Number>
+void add_stretching(const Fields<Number>& x, const PointGeometry<Number>& p, const PointPast& past,
+                    const StepNumbers& step, Fields<Number>& row) {
+    const auto& s = x[membrane_stretch];
+    add_transport(s.value, x, p, past, past.stretching, step, row[membrane_stretch]);
+    add_alignment(s, past.normal, within_a_step(step.numerics.production.stretching_alignment, step) * p.surface,
+                  row[membrane_stretch]);
+    const double smoothing =
+        step.numerics.production.strain_relaxation * step.numerics.cell_size * step.numerics.cell_size;
+    add_diffusion(s, (step.numerics.stretching_diffusivity + smoothing) * p.surface, row[membrane_stretch]);
+}
+
+}  // namespace endoflow::phasefield::production
