@@ -26,10 +26,8 @@ nlohmann::ordered_json as_json(const ParameterRow& row, const Parameters& parame
 
 /// A record of a version that did not know the parameter ran with what is its default now.
 nlohmann::ordered_json recorded(const RunRecord& record, const ParameterRow& row) {
-    const auto& sections = record.at("parameters");
-    if (!sections.contains(row.section) || !sections.at(row.section).contains(row.key))
-        return as_json(row, Parameters{});
-    return sections.at(row.section).at(row.key);
+    const auto* value = find_value(record.at("parameters"), row);
+    return value == nullptr ? as_json(row, Parameters{}) : *value;
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 namespace endoflow {
 
@@ -101,17 +103,37 @@ nlohmann::ordered_json describe_parameters(const ParameterRows& rows) {
     return result;
 }
 
+namespace {
+
+/// "a.b" as {"a", "b"}.
+std::vector<std::string> parts(const std::string& section) {
+    std::vector<std::string> out;
+    std::size_t begin = 0;
+    for (std::size_t dot; (dot = section.find('.', begin)) != std::string::npos; begin = dot + 1)
+        out.push_back(section.substr(begin, dot - begin));
+    out.push_back(section.substr(begin));
+    return out;
+}
+
+}  // namespace
+
 nlohmann::ordered_json parameters_to_json(const Parameters& parameters) {
     nlohmann::ordered_json result;
     for (const auto& row : parameter_table()) {
         auto* section = &result;  // [a.b] is an object within an object
-        for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
-            end = row.section.find('.', begin);
-            section = &(*section)[row.section.substr(begin, end - begin)];
-        }
+        for (const auto& part : parts(row.section)) section = &(*section)[part];
         std::visit([&](const auto& value) { (*section)[row.key] = value; }, row.get(parameters));
     }
     return result;
+}
+
+const nlohmann::ordered_json* find_value(const nlohmann::ordered_json& parameters, const ParameterRow& row) {
+    const auto* section = &parameters;
+    for (const auto& part : parts(row.section)) {
+        if (!section->contains(part)) return nullptr;
+        section = &section->at(part);
+    }
+    return section->contains(row.key) ? &section->at(row.key) : nullptr;
 }
 
 }  // namespace endoflow

@@ -28,4 +28,8 @@ using ParameterRows = std::vector<ParameterRow>;
 /// {"section": {"key": value}} with every parameter.
 [[nodiscard]] nlohmann::ordered_json parameters_to_json(const Parameters& parameters);
 
+/// A parameter's value in what parameters_to_json() made; nullptr where it is not there.
+[[nodiscard]] const nlohmann::ordered_json* find_value(const nlohmann::ordered_json& parameters,
+                                                       const ParameterRow& row);
+
 }  // namespace endoflow

@@ -64,6 +64,11 @@ TEST_CASE("a section within a section is an object within an object, and --set f
     CHECK(p.phase_field.epsilon == 2);
     CHECK(p.phase_field.paper.max_motion == 0.5);
     const auto json = parameters_to_json(p);
+    for (const auto& row : parameter_table()) {
+        INFO(row.name());
+        REQUIRE(find_value(json, row) != nullptr);
+        std::visit([&](const auto& value) { CHECK(*find_value(json, row) == value); }, row.get(p));
+    }
     CHECK(json["phase_field"]["paper"]["max_motion"] == 0.5);
     CHECK(json["phase_field"]["production"]["tension_leak"] == 0.02);
 }
