@@ -34,6 +34,24 @@ inline double normal_diffusivity_of_molecules(const StepNumbers& step) {
     return within_a_step(std::max(step.molecules.normal_diffusivity, least), step);
 }
 
+/// What the tension leaves of P:∇u within a cell diffuses away in s, as fast as ζ relaxes s over a cell [nm²/µs].
+inline double stretch_diffusivity(const StepNumbers& step) {
+    const double h = step.numerics.cell_size;
+    return step.numerics.stretching_diffusivity + step.numerics.production.strain_relaxation * h * h;
+}
+
+/// The molecules ride on the membrane that the diffusion of s, D_s ∇_Γ s, moves along itself. Where P:∇u crowds the
+/// membrane within a cell it crowds c, too, and the force e ∇c crowds both further, at a rate of e c k/(ν₁ + ν₂) for
+/// wave numbers k that the tension does not reach. Diffusion of c would hold that back, too, but spread the coat.
+template <class Number>
+void add_redistribution(const Number& c, const AtPoint<Number>& s, const PointGeometry<Number>& p, const Number& weight,
+                        const StepNumbers& step, AtPoint<Number>& row) {
+    const Number along = s.z * p.normal_r - s.r * p.normal_z;
+    const Number flux = stretch_diffusivity(step) * weight * c * along;
+    row.r += (-1.0) * flux * p.normal_z;
+    row.z += flux * p.normal_r;
+}
+
 /// (40), (41), or (39), or (14): δ_m c is conserved. The diffusion along the membrane ends where δ_m does: on the
 /// coarse cells beyond, the double well would have several solutions where the layers of bud and plane meet.
 template <class Number>
@@ -44,6 +62,7 @@ void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     const Number phi2 = p.layer.phi * p.layer.phi, weight = cut_density(p.layer);
     add_alignment(c, past.molecules_normal, normal_diffusivity_of_molecules(step) * p.surface, row[molecule_density]);
     add_diffusion(c, molecule_leak * (phi2 * phi2), row[molecule_density]);
+    add_redistribution(c.value, x[membrane_stretch], p, weight, step, row[molecule_density]);
     row[molecule_potential].value = p.surface * mu.value;
     if (step.molecules.transport == Transport::cahn_hilliard) {
         const double width = step.molecules.interface_width;
@@ -57,8 +76,7 @@ void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     }
 }
 
-/// (38): δ_m s is the membrane's material; where it enters at the rim s = 1. The tension holds P:∇u to the average over
-/// a cell; what that leaves within one, most of it at the axis, diffuses as fast as ζ relaxes s.
+/// (38): δ_m s is the membrane's material; where it enters at the rim s = 1.
 template <class Number>
 void add_stretching(const Fields<Number>& x, const PointGeometry<Number>& p, const PointPast& past,
                     const StepNumbers& step, Fields<Number>& row) {
@@ -66,9 +84,7 @@ void add_stretching(const Fields<Number>& x, const PointGeometry<Number>& p, con
     add_transport(s.value, x, p, past, past.stretching, step, row[membrane_stretch]);
     add_alignment(s, past.normal, within_a_step(step.numerics.production.stretching_alignment, step) * p.surface,
                   row[membrane_stretch]);
-    const double smoothing =
-        step.numerics.production.strain_relaxation * step.numerics.cell_size * step.numerics.cell_size;
-    add_diffusion(s, (step.numerics.stretching_diffusivity + smoothing) * p.surface, row[membrane_stretch]);
+    add_diffusion(s, stretch_diffusivity(step) * p.surface, row[membrane_stretch]);
 }
 
 }  // namespace endoflow::phasefield::production
