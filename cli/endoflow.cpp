@@ -12,6 +12,7 @@
 #include "locations.h"
 #include "process.h"
 #include "shared/case/case_file.h"
+#include "shared/case/resolution.h"
 #include "shared/parameters/parameter_rendering.h"
 #include "shared/support/error.h"
 #include "shared/support/nearest_word.h"
@@ -98,6 +99,8 @@ int check(int argc, char** argv) {
         fmt::print("{}\n", parameters_to_json(parameters).dump(2));
     else
         fmt::print("{}: valid (case '{}')\n", file, parameters.case_.name);
+    for (const auto& [engine, what, remedy] : foreseen_inaccuracies(parameters))
+        fmt::print(stderr, "warning: {}: {}; {}\n", engine, what, remedy);
     return 0;
 }
 

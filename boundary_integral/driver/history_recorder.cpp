@@ -40,7 +40,7 @@ void HistoryRecorder::record(double time, const Evaluation& evaluation, int orde
     const PhaseTimer timer(output_, "observables");
     const ShapeIntegrals shape = shape_integrals(dynamics_.space(), evaluation.state, parameters_.domain);
     check_walls(shape, parameters_.domain, time);
-    check_stiffness(evaluation.samples.c, dynamics_.model(), time);
+    check_stiffness(evaluation.samples.c, dynamics_.model(), parameters_, time);
     HistoryRow row;
     row.time_us = time;
     row.step_us = time - last_row_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "shared/case/resolution.h"
 #include "shared/support/error.h"
 
 namespace endoflow::boundary_integral {
@@ -15,9 +16,18 @@ void check_walls(const ShapeIntegrals& shape, const DomainParameters& domain, do
                       "enlarge domain.height or move domain.membrane_height");
 }
 
-void check_stiffness(const std::vector<double>& concentrations, const BendingModel& model, double time) {
+void check_stiffness(const std::vector<double>& concentrations, const BendingModel& model, const Parameters& parameters,
+                     double time) {
     for (const double c : concentrations) {
         if (model.stiffness(c).value > 0.0) continue;
+        if (elements_per_edge_width(parameters) < fewest_elements_per_edge_width)
+            throw SolverError(
+                "unresolved-coat-edge",
+                fmt::format("c = {:.6f} at t = {:.6f} µs, where the bending stiffness is no longer "
+                            "positive, beside the coat's edge: boundary_integral.elements = {} do not "
+                            "resolve molecules.interface_width = {:g} nm",
+                            c, time, parameters.boundary_integral.elements, parameters.molecules.interface_width),
+                "raise one of them");
         throw SolverError("negative-stiffness",
                           fmt::format("the law of membrane.constitutive_law gives no positive bending stiffness at "
                                       "c = {:.6f}, beside the edge of the coat, at t = {:.6f} µs",

@@ -14,6 +14,7 @@ void check_walls(const ShapeIntegrals& shape, const DomainParameters& domain, do
 
 /// Beside the coat's edge c leaves [0, 1] by some hundredths. That is harmless as long as b(c) stays positive; bending
 /// with a negative stiffness is ill-posed, and no time step would be small enough: SolverError("negative-stiffness").
-void check_stiffness(const std::vector<double>& concentrations, const BendingModel& model, double time);
+void check_stiffness(const std::vector<double>& concentrations, const BendingModel& model, const Parameters& parameters,
+                     double time);
 
 }  // namespace endoflow::boundary_integral

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "shared/model/bending_model.h"
+#include "shared/model/initial_condition.h"
 #include "shared/model/loads.h"
 #include "shared/support/error.h"
 
@@ -24,11 +25,23 @@ constexpr double most_cells_across = 2e5;
 
 using Require = std::function<void(bool holds, const std::string& message)>;
 
+/// The initial profile is a patch only if c is about 1 in its middle and about 0 at the rim.
+constexpr double least_contrast = 0.9;
+
 void check_box(const Parameters& p, const Require& require) {
     const double below = p.domain.membrane_height, above = p.domain.height - p.domain.membrane_height;
     require(p.molecules.patch_radius < p.domain.radius,
             fmt::format("molecules.patch_radius = {} nm must be smaller than domain.radius = {} nm",
                         p.molecules.patch_radius, p.domain.radius));
+    const double centre = initial_concentration(p.molecules, 0),
+                 rim = initial_concentration(p.molecules, p.domain.radius);
+    require(
+        centre >= least_contrast && rim <= 1 - least_contrast,
+        fmt::format("molecules.interface_width = {} nm is too wide for a patch of molecules.patch_radius = {} nm in "
+                    "domain.radius = {} nm: c is {:.2g} in the middle, which must be >= {}, and {:.2g} at the rim, "
+                    "which must be <= {:.2g}; lower interface_width or change patch_radius",
+                    p.molecules.interface_width, p.molecules.patch_radius, p.domain.radius, centre, least_contrast, rim,
+                    1 - least_contrast));
     const double room = p.domain.pin_half_width + p.domain.wall_clearance;
     require(below > room && above > room,
             fmt::format("domain.membrane_height = {} nm must lie farther than pin_half_width + wall_clearance = {} "

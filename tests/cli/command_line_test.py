@@ -155,6 +155,30 @@ class CommandLine(unittest.TestCase):
             result = endoflow("check", self.case(""), "--set", f"time.end={text}", "--set", "time.max_step=0.1", "--json")
             self.assertEqual(json.loads(result.stdout)["time"]["end"], value)
 
+    def test_check_foresees_what_is_too_coarse(self):
+        """What was measured to be off by 0.4 % and more, against the sharp engine's converged results."""
+        for setting, words in (("molecules.interface_width=0.6", ("0.6 elements", "boundary_integral.elements to 133")),
+                               ("domain.radius=200", ("boundary_integral.elements to 167",)),
+                               ("boundary_integral.elements=20", ("boundary_integral.elements to 67",)),
+                               ("molecules.patch_radius=70", ("domain.radius above 87.5",)),
+                               ("phase_field.cell_size=3", ("phase-field", "cell_size = 0"))):
+            with self.subTest(setting):
+                result = endoflow("check", self.case(""), "--set", setting)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertTrue(result.stderr.startswith("warning: "))
+                for word in words:
+                    self.assertIn(word, result.stderr)
+        self.assertEqual(endoflow("check", self.case("")).stderr, "")
+
+    def test_edge_that_the_elements_do_not_resolve(self):
+        """The mesh is to blame, not the constitutive law."""
+        result = endoflow("run", "boundary-integral", self.case(""), "--set", "molecules.interface_width=0.05",
+                          "--set", "membrane.bending_stiffness_coated=10000", "--set", "output.field_interval=0", "-o", self.root / "run", "--until", "0.01")
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertIn("unresolved-coat-edge", result.stderr)
+        self.assertIn("molecules.interface_width = 0.05", result.stderr)
+        self.assertNotIn("constitutive_law", result.stderr)
+
     def test_output_that_nobody_takes(self):
         with open("/dev/full", "w") as full:
             result = subprocess.run([PROGRAM, "params"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
