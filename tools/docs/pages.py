@@ -12,7 +12,7 @@ GROUPS = {
         "index", "install", "first-run", "case-files", "parameters-biology", "outputs", "studies", "paper", "paraview", "python",
     ),
     "Methods": (
-        "model", "boundary-integral", "phase-field", "phase-field-paper", "statics", "verification", "decisions/index",
+        "model", "boundary-integral", "phase-field", "phase-field-paper", "statics", "modes", "verification", "decisions/index",
     ),
     "Results": (
         "results/standard-case", "results/sharp-refinement", "results/smooth-case", "results/patch-radii", "results/scheme-paper",
