@@ -26,9 +26,11 @@ Eigen::VectorXd state_at(double time, const StiffIntegrator& integrator) {
 
 }  // namespace
 
-OutputSeries::OutputSeries(const Parameters& parameters, const MembraneDynamics& dynamics, RunOutput& output)
+OutputSeries::OutputSeries(const Parameters& parameters, const MembraneDynamics& dynamics, const FlowInterpolant& flow,
+                           RunOutput& output)
     : parameters_(parameters),
       dynamics_(dynamics),
+      flow_(flow),
       output_(output),
       start_(output.restart_point() ? output.restart_point()->time_us : 0.0),
       sampler_(dynamics.space(), shape_points_per_element * dynamics.space().elements()),
@@ -38,22 +40,22 @@ bool OutputSeries::writes_fields() const {
     return parameters_.output.field_interval > 0.0 && dynamics_.box() != nullptr;
 }
 
-void OutputSeries::write_initial(const Eigen::VectorXd& y) {
-    if (last_shape_ < 0.0) write_shape(0.0, y);
-    if (!output_.restart_point() && writes_fields()) write_fields(0.0, y);
+void OutputSeries::write_initial(const Evaluation& evaluation) {
+    write_shape(0.0, evaluation.state, evaluation.flow);
+    if (writes_fields()) write_fields(0.0, evaluation);
 }
 
 void OutputSeries::write_until(double end, const StiffIntegrator& integrator) {
     for (double time = next_shape(); !later(time, end); time = next_shape())
-        write_shape(time, state_at(time, integrator));
+        write_shape(time, dynamics_.unpack(state_at(time, integrator)), flow_.at(time));
     if (!writes_fields()) return;
     for (double time = next_field_time(); !later(time, end); time = next_field_time())
-        write_fields(time, state_at(time, integrator));
+        write_fields(time, dynamics_.evaluate(state_at(time, integrator)));
 }
 
 void OutputSeries::write_shape_at(double time, const StiffIntegrator& integrator) {
     write_until(time, integrator);
-    if (later(time, last_shape_)) write_shape(time, state_at(time, integrator));
+    if (later(time, last_shape_)) write_shape(time, dynamics_.unpack(state_at(time, integrator)), flow_.at(time));
 }
 
 double OutputSeries::next_shape() const {
@@ -64,16 +66,15 @@ double OutputSeries::next_field_time() const {
     return next_multiple(parameters_.output.field_interval, std::max(start_, fields_.latest().value_or(0.0)));
 }
 
-void OutputSeries::write_shape(double time, const Eigen::VectorXd& y) {
+void OutputSeries::write_shape(double time, const MembraneState& state, const FlowSolution& flow) {
     const PhaseTimer timer(output_, "shapes");
-    output_.write_shape(time, sampler_(dynamics_.evaluate(y)));
+    output_.write_shape(time, sampler_(state, flow));
     last_shape_ = time;
 }
 
-void OutputSeries::write_fields(double time, const Eigen::VectorXd& y) {
+void OutputSeries::write_fields(double time, const Evaluation& evaluation) {
     const PhaseTimer timer(output_, "fields");
-    const QuadGrid grid =
-        field_grid(parameters_, dynamics_, dynamics_.evaluate(y), parameters_.boundary_integral.field_spacing);
+    const QuadGrid grid = field_grid(parameters_, dynamics_, evaluation, parameters_.boundary_integral.field_spacing);
     fields_.add(time, vtu_text(grid));
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "boundary_integral/driver/flow_interpolant.h"
 #include "boundary_integral/evolution/membrane_dynamics.h"
 #include "boundary_integral/evolution/observation.h"
 #include "boundary_integral/integration/stiff_integrator.h"
@@ -12,10 +13,12 @@ namespace endoflow::boundary_integral {
 /// output.field_interval. After a restart the multiples before its beginning are past, whatever the intervals were.
 class OutputSeries {
   public:
-    OutputSeries(const Parameters& parameters, const MembraneDynamics& dynamics, RunOutput& output);
+    /// `flow`: between the steps that are written.
+    OutputSeries(const Parameters& parameters, const MembraneDynamics& dynamics, const FlowInterpolant& flow,
+                 RunOutput& output);
 
-    /// Shape and fields of the initial state, when the run is not a restart.
-    void write_initial(const Eigen::VectorXd& y);
+    /// Shape and fields of the initial state.
+    void write_initial(const Evaluation& evaluation);
 
     /// Everything due up to a time inside the integrator's last step.
     void write_until(double time, const StiffIntegrator& integrator);
@@ -29,6 +32,7 @@ class OutputSeries {
   private:
     const Parameters& parameters_;
     const MembraneDynamics& dynamics_;
+    const FlowInterpolant& flow_;
     RunOutput& output_;
     double start_;  // µs, of this part of the run
     CurveSampler sampler_;
@@ -38,8 +42,8 @@ class OutputSeries {
     [[nodiscard]] bool writes_fields() const;
     [[nodiscard]] double next_shape() const;
     [[nodiscard]] double next_field_time() const;
-    void write_shape(double time, const Eigen::VectorXd& y);
-    void write_fields(double time, const Eigen::VectorXd& y);
+    void write_shape(double time, const MembraneState& state, const FlowSolution& flow);
+    void write_fields(double time, const Evaluation& evaluation);
 };
 
 }  // namespace endoflow::boundary_integral

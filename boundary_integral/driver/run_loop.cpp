@@ -22,22 +22,23 @@ class RunLoop {
           dynamics_(parameters),
           history_(parameters, dynamics_, output),
           events_(parameters, dynamics_, output),
-          series_(parameters, dynamics_, output),
+          series_(parameters, dynamics_, flow_, output),
           start_(start()),
           integrator_(problem(), start_, {parameters.time.max_step, smallest_step}) {}
 
     ExitReason execute() {
-        series_.write_initial(integrator_.state());
-        resume_ = make_checkpoint();
+        if (!output_.restart_point()) begin();
+        begin_section();
         while (integrator_.time() < parameters_.time.end) {
             if (integrator_.statistics().steps == next_start_) start_anew();
             if (interruption_signal() != 0) return stop(ExitReason::interrupted);
             if (output_.checkpoint_due()) output_.write_checkpoint(resume_);
             advance();
+            const Evaluation accepted = dynamics_.evaluate(integrator_.state(), operators_);
+            flow_.add(integrator_.time(), accepted.flow);
             if (const auto reason = events_.look(integrator_, history_, series_)) return stop(*reason);
             series_.write_until(integrator_.time(), integrator_);
-            history_.record(integrator_.time(), dynamics_.evaluate(integrator_.state(), operators_),
-                            integrator_.last_order());
+            history_.record(integrator_.time(), accepted, integrator_.last_order());
         }
         series_.write_shape_at(integrator_.time(), integrator_);
         return stop(ExitReason::done);
@@ -47,10 +48,12 @@ class RunLoop {
     const Parameters& parameters_;
     RunOutput& output_;
     MembraneDynamics dynamics_;
+    FlowInterpolant flow_;
     HistoryRecorder history_;
     NeckEvents events_;
     OutputSeries series_;
     std::shared_ptr<const MobilityOperators> operators_;  // of the step's predicted shape
+    Eigen::VectorXd predicted_;                           // what that shape belongs to
     Evaluation latest_;                                   // of the last rate the integrator asked for
     StartingPoint start_;                                 // of the integrator
     StiffIntegrator integrator_;
@@ -69,10 +72,23 @@ class RunLoop {
         return checkpoint;
     }
 
+    void begin() {
+        make_operators(start_.y);
+        const Evaluation initial = dynamics_.evaluate(start_.y, operators_);
+        history_.start(initial);
+        series_.write_initial(initial);
+    }
+
+    void begin_section() {
+        make_operators(start_.y);
+        flow_.start(start_.time, dynamics_.evaluate(start_.y, operators_).flow);
+        resume_ = make_checkpoint();
+    }
+
     void start_anew() {
         start_ = integrator_.start_anew();
         next_start_ += parameters_.boundary_integral.restart_interval;
-        resume_ = make_checkpoint();
+        begin_section();
     }
 
     StartingPoint start() {
@@ -82,17 +98,19 @@ class RunLoop {
             series_.restore(*checkpoint);
             return restored_start(*checkpoint, dynamics_.size(), output_.directory().string());
         }
-        const Eigen::VectorXd initial = dynamics_.initial_vector();
-        history_.start(dynamics_.evaluate(initial));
-        return {0.0, parameters_.time.initial_step, initial};
+        return {0.0, parameters_.time.initial_step, dynamics_.initial_vector()};
+    }
+
+    void make_operators(const Eigen::VectorXd& predicted) {
+        if (operators_ && predicted == predicted_) return;
+        const PhaseTimer timer(output_, "flow operators");
+        operators_ = dynamics_.operators(predicted);
+        predicted_ = predicted;
     }
 
     StiffProblem problem() {
         StiffProblem problem;
-        problem.begin_step = [this](const Eigen::VectorXd& predicted) {
-            const PhaseTimer timer(output_, "flow operators");
-            operators_ = dynamics_.operators(predicted);
-        };
+        problem.begin_step = [this](const Eigen::VectorXd& predicted) { make_operators(predicted); };
         problem.rate = [this](const Eigen::VectorXd& y) {
             const PhaseTimer timer(output_, "rates");
             latest_ = dynamics_.evaluate(y, operators_);

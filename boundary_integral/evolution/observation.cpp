@@ -138,29 +138,29 @@ CurveSampler::CurveSampler(const MembraneSpace& space, Index intervals) : space_
     }
 }
 
-MembraneCurve CurveSampler::operator()(const Evaluation& e) const {
+MembraneCurve CurveSampler::operator()(const MembraneState& state, const FlowSolution& flow) const {
     MembraneCurve curve;
-    const Eigen::VectorXd u_r = e.flow.velocity.head(space_.radial_count());
-    const Eigen::VectorXd u_z = e.flow.velocity.tail(space_.axial_count());
+    const Eigen::VectorXd u_r = flow.velocity.head(space_.radial_count());
+    const Eigen::VectorXd u_z = flow.velocity.tail(space_.axial_count());
     const std::vector<double>& weights = arc_length_rule().weights;
     const std::size_t last = points_.size() - 1;
     double arc_length = 0.0;
     for (std::size_t i = 0; i <= last; ++i) {
         const Point& point = points_[i];
-        const CurvePoint p = curve_point(point.radial, point.axial, e.state);
+        const CurvePoint p = curve_point(point.radial, point.axial, state);
         const bool on_axis = i == 0 || (i == last && space_.end() == CurveEnd::closed);
         curve.s.push_back(arc_length);
         curve.r.push_back(on_axis ? 0.0 : p.r);
         curve.z.push_back(p.z);
-        curve.c.push_back(point.axial.evaluate(e.state.c));
-        curve.lambda.push_back(point.tension.evaluate(e.flow.multipliers.tension));
+        curve.c.push_back(point.axial.evaluate(state.c));
+        curve.lambda.push_back(point.tension.evaluate(flow.multipliers.tension));
         curve.kappa.push_back(p.total_curvature());
         curve.u_r.push_back(on_axis ? 0.0 : point.radial.evaluate(u_r));
         curve.u_z.push_back(point.axial.evaluate(u_z));
         for (std::size_t q = 0; i < last && q < weights.size(); ++q) {
             const Point& middle = between_[i * weights.size() + q];
             arc_length +=
-                0.5 / static_cast<double>(last) * weights[q] * curve_point(middle.radial, middle.axial, e.state).g;
+                0.5 / static_cast<double>(last) * weights[q] * curve_point(middle.radial, middle.axial, state).g;
         }
     }
     return curve;

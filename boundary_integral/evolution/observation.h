@@ -45,7 +45,7 @@ EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation&
 class CurveSampler {
   public:
     CurveSampler(const MembraneSpace& space, Index intervals);
-    MembraneCurve operator()(const Evaluation& evaluation) const;
+    MembraneCurve operator()(const MembraneState& state, const FlowSolution& flow) const;
 
   private:
     struct Point {
