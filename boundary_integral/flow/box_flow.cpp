@@ -99,10 +99,12 @@ FlowBalances flow_balances(const MembraneSpace& space, const BoxFlow& box, const
         }
     }
     constexpr double tiny = 1e-300;
+    // A membrane that changes by less than 1e-9 of its size in a microsecond is at rest: fluxes are round-off there.
+    const double rest = 1e-9 * samples.rim_radius * samples.rim_radius;
     return {std::abs(membrane.force + band_force) / (membrane.force_modulus + band_modulus + tiny),
             (std::abs(out_below + membrane.volume) + std::abs(out_above - membrane.volume)) /
-                (membrane.volume_modulus + tiny),
-            std::abs(area_growth) / (std::abs(samples.rim_radius * flow.inflow) + tiny)};
+                (membrane.volume_modulus + rest * samples.rim_radius),
+            std::abs(area_growth) / (std::abs(samples.rim_radius * flow.inflow) + rest)};
 }
 
 }  // namespace endoflow::boundary_integral
