@@ -24,11 +24,11 @@ namespace endoflow::cli {
 namespace {
 
 const std::vector<std::string> engines{"boundary-integral", "phase-field"};
-const std::vector<std::string> commands{"run",     "compare", "converge", "sweep",  "reproduce", "movie",
-                                        "revolve", "laws",    "statics",  "params", "check",     "summary"};
+const std::vector<std::string> commands{"run",    "compare", "converge", "sweep",  "reproduce", "movie",  "revolve",
+                                        "report", "laws",    "statics",  "params", "check",     "summary"};
 
 /// Commands that are Python: modules in comparisons/commands/.
-const std::vector<std::string> scripts{"compare", "converge", "sweep", "reproduce", "movie", "revolve"};
+const std::vector<std::string> scripts{"compare", "converge", "sweep", "reproduce", "movie", "revolve", "report"};
 
 constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, computed by two independent engines
 
@@ -38,6 +38,7 @@ constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, comp
   endoflow converge CASE.toml --epsilon E1,E2,...          phase field against sharp membrane as the layer gets thin
   endoflow sweep CASE.toml --vary KEY=FIRST:LAST:STEP --engine ENGINE [-o DIR] [--jobs N]      many runs of one case
   endoflow reproduce ITEM [--quick|--full] [-o DIR] [--jobs N]     the paper: table2, fig3 ... fig7, figA2 or all
+  endoflow report DIR [-o DIR]                             a page of one run: plots, numbers, alarms, provenance
   endoflow movie DIR [-o FILE.mp4|FILE.gif]                a run as a film (needs ffmpeg)
   endoflow revolve DIR [--angle DEGREES]                   a run's membrane as surfaces in space, for ParaView
   endoflow statics CASE.toml [-o DIR] [--continue-in KEY=END]               stationary shapes of the sharp membrane

@@ -59,14 +59,14 @@ try:
 except ImportError:
     sys.exit("matplotlib is not installed: no picture")
 
-figure, axes = plt.subplots(figsize=(6, 4), layout="constrained")
-for t in np.linspace(0, run.shape_times[-1], 4):
+figure, panels = plt.subplots(1, 4, figsize=(11, 3), sharey=True, layout="constrained")
+for axes, t in zip(panels, np.linspace(0, run.shape_times[-1], 4)):
     s = run.shape_at(t)
     for side in (-1, 1):
         points = np.column_stack((side * s.r, s.z))
         pieces = np.stack((points[:-1], points[1:]), axis=1)
         axes.add_collection(LineCollection(pieces, array=0.5 * (s.c[1:] + s.c[:-1]), cmap="viridis", clim=(0, 1)))
-    axes.annotate(f"{t:.2g} µs", (2, s.z[0] + 1))
-axes.set(xlim=(-80, 80), ylim=(70, shape.z.max() + 25), aspect="equal", xlabel="r (nm)", ylabel="z (nm)")
+    axes.set(xlim=(-80, 80), ylim=(70, run.shapes[-1].z.max() + 10), aspect="equal", xlabel="r (nm)", title=f"{t:.2g} µs")
+panels[0].set_ylabel("z (nm)")
 figure.savefig(run.directory / "tutorial.png", dpi=150)
 print("picture:", run.directory / "tutorial.png")

@@ -111,7 +111,9 @@ def run(options):
                 return 128 + interruption.signal
         rows = collect(members, outcomes, output)
         keys = [*members[0].values]
+        used = dict.fromkeys(member.parameters["membrane"]["curvature_convention"] for member in members)
+        convention = " and ".join(used)
         drawn = sweep_plots.write_all(rows, keys, units, output)
-        write_text(output / "report.html", sweep_html(rows, keys, drawn, output))
+        write_text(output / "report.html", sweep_html(rows, keys, convention, drawn, output))
         print("\n".join(summary_lines(rows, output)))
         return RUN_FAILED if report_failures("sweep", outcomes) else 0

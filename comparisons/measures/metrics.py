@@ -4,7 +4,8 @@ metrics.json (schema_version 1); every key ends in its unit, null stands for "do
 
     schema_version        1
     runs                  {"a": …, "b": …}: label, directory, engine, version, git, state, exit_reason, end_us, budding_time_us,
-                          alarms [{name, time, value, bound, meaning, remedy}]
+                          alarms [{name, time, value, bound, meaning, remedy}],
+                          basis {curvature convention, resolution, alarms} in words
     common_interval_us    [first, last] time both runs have shapes for
     case_differences      [{key, a, b}]: parameters that differ, the engines' own sections left out
     warnings              [text]
@@ -36,6 +37,7 @@ from dataclasses import asdict
 import numpy as np
 from scipy.integrate import trapezoid
 
+from comparisons.measures.basis import basis
 from comparisons.measures.distances import curve_distance
 from comparisons.measures.interpolation import InterpolationError
 from endoflow.curves import area_from_axis, resample
@@ -278,4 +280,5 @@ def describe(run, label):
         "end_us": float(run.history["time_us"][-1]),
         "budding_time_us": run.event_time("budding"),
         "alarms": [asdict(alarm) for alarm in run.alarms],
+        "basis": dict(basis(run)),
     }

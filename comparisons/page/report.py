@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 
 from comparisons.drawing import style
+from comparisons.measures.basis import basis
 from comparisons.measures.metrics import ENGINE_SECTIONS, QUANTITIES, flat_parameters
 from comparisons.page.report_data import report_data
 
@@ -48,6 +49,7 @@ def report_html(a, b, metrics, plots, directory):
         metrics_table=metrics_table(metrics, labels),
         times_table=times_table(metrics["times"]),
         plots="\n".join(plot(directory / f"{name}.svg", title) for name, title in plots.items()),
+        basis_table=basis_table(a, b, labels),
         parameters_table=parameters_table(a, b, labels),
         provenance_table=provenance_table(a, b, labels),
     )
@@ -264,6 +266,12 @@ def plot(path, title):
         f'<figure class="plot"><figcaption>{escaped(title)}</figcaption>'
         f'<img alt="{escaped(title)}" src="data:image/svg+xml;base64,{source}"></figure>'
     )
+
+
+def basis_table(a, b, labels):
+    """What the numbers of both runs rest on."""
+    rows = [("", [escaped(what), escaped(x), escaped(y)]) for (what, x), (_, y) in zip(basis(a), basis(b))]
+    return table(["", *map(escaped, labels)], rows, "text")
 
 
 def parameters_table(a, b, labels):

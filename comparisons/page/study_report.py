@@ -37,6 +37,7 @@ def convergence_html(metrics, case_name, parameters, drawn, directory):
         ("Limits for ε → 0", LIMITS_NOTE + limits_table(metrics)),
         ("Distances and errors", records_table(metrics)),
         ("Runs", runs_table(metrics)),
+        ("What the numbers rest on", basis_table(metrics)),
         ("Parameters of the case", parameters_table(parameters)),
     ]
     return page(
@@ -156,19 +157,27 @@ def runs_table(metrics):
     return report.table(heads, rows)
 
 
+def basis_table(metrics):
+    """Convention, resolution and alarms of the runs."""
+    runs = [metrics["sharp"], *metrics["runs"]]
+    rows = [("", [escaped(run["label"]), *map(escaped, run["basis"].values())]) for run in runs]
+    return report.table(["", *map(escaped, runs[0]["basis"])], rows, "text")
+
+
 def parameters_table(parameters):
     """All parameters that the runs share."""
     rows = [("", [f"<code>{escaped(key)}</code>", setting(value)]) for key, value in parameters.items()]
     return report.table(["", "value"], rows, "text")
 
 
-def sweep_html(rows, keys, drawn, directory):
+def sweep_html(rows, keys, convention, drawn, directory):
     """The page of a sweep: its rows (as of sweep_table) over the varied keys; drawn: {plot: title}."""
     failed = [f"{row['directory']} failed: {row['exit_reason']}" for row in rows if row["state"] == "failed"]
-    failed += [f"{row['directory']}: accuracy alarm: {row['alarms']}" for row in rows if row["alarms"]]
+    alarmed = [f"{row['directory']}: accuracy alarm: {row['alarms']}" for row in rows if row["alarms"]]
     heads = [column for column in rows[0] if column != "directory"]
     titles = [escaped(column.replace("_", " ")) for column in heads]
     body = report.table(titles, [("", [setting(row[column], 5) for column in heads]) for row in rows])
     plots = "".join(report.plot(directory / f"{name}.svg", title) for name, title in drawn.items())
+    subtitle = f"{len(rows)} runs · curvature convention {convention} · {'with' if alarmed else 'no'} accuracy alarms"
     sections = [("Plots", plots)] * bool(plots) + [("Runs", body)]
-    return page("endoflow sweep", " and ".join(keys), f"{len(rows)} runs", failed, [], sections, directory)
+    return page("endoflow sweep", " and ".join(keys), subtitle, failed + alarmed, [], sections, directory)

@@ -18,6 +18,10 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 LINES = {"boundary-integral": "-", "phase-field": (0, (4, 2))}
 
 
+#: Where the time axis begins, µs; for runs of less than a microsecond that part of their length.
+FIRST_SHOWN = 0.01
+
+
 def history_names(titles, engines):
     """Names of the lines: {(run name, engine): text} from {run name: title}."""
     return {
@@ -40,11 +44,15 @@ def history_figure(runs, names, columns=COLUMNS):
             line = axes.plot(run.history["time_us"], values, **look)
         handles.append(line[0])
         texts.append(legend)
+    last = max((axes.dataLim.x1 for axes in grid if np.isfinite(axes.dataLim.x1)), default=1.0)
     for axes, column in zip(grid, columns):
         axes.set_title(style.axis_label(column))
         axes.set_xscale("log", nonpositive="mask")
         axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
-        axes.set_xlim(left=0.01)
+        axes.set_xlim(min(FIRST_SHOWN, FIRST_SHOWN * last), last)
+        if not np.isfinite(axes.dataLim.y1):
+            axes.text(0.5, 0.5, "none in any run", transform=axes.transAxes, ha="center", color="#777777")
+            axes.set_yticks([])
         axes.set_ylim(bottom=0)
         axes.set_xlabel("time (µs)")
     if "neck_radius_nm" in columns and np.isfinite(grid[columns.index("neck_radius_nm")].dataLim.y1):

@@ -1,6 +1,7 @@
 """report.html of an item, and the index of all."""
 
 from comparisons.drawing import style
+from comparisons.measures.basis import basis
 from comparisons.page import report
 from comparisons.page.report import escaped
 from comparisons.page.study_report import page
@@ -63,16 +64,20 @@ def runs_table(runs):
             if not is_run(found):
                 rows.append(("", [*head, escaped(f"not run: {found.reason}"), "–", "–", "–", "–"]))
                 continue
-            record, layer = found.record, found.parameters["phase_field"]["epsilon"]
+            record, (convention, resolved) = found.record, [value for _, value in basis(found)[:2]]
             cells = [
                 escaped(record["exit_reason"]),
                 report.setting(float(found.history["time_us"][-1]), 5),
-                report.setting(layer, 3) if engine == "phase-field" else "–",
+                escaped(f"{resolved}; {convention}"),
                 report.figures(record.get("wall_s"), 3),
                 f"<code>{escaped(found.directory)}</code>",
             ]
             rows.append(("", [*head, *cells]))
-    return report.table(["run", "engine", "ended with", "end (µs)", "ε (nm)", "wall (s)", "directory"], rows, "text")
+    return report.table(
+        ["run", "engine", "ended with", "end (µs)", "resolution; curvature convention", "wall (s)", "directory"],
+        rows,
+        "text",
+    )
 
 
 def summary_lines(item, result, directory):

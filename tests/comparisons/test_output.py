@@ -1,6 +1,8 @@
 """What `endoflow compare` writes."""
 
 import json
+import subprocess
+import sys
 import unittest
 
 import locations  # noqa: F401
@@ -58,6 +60,25 @@ class Output(CompareTest):
         self.assertIn(sentence, (self.scratch / "with_alarm" / "report.html").read_text())
         metrics = json.loads((self.scratch / "with_alarm" / "metrics.json").read_text())
         self.assertEqual([alarm["name"] for alarm in metrics["runs"]["b"]["alarms"]], ["energy-balance"])
+
+    def test_a_page_of_one_run(self):
+        """It says what the numbers rest on; a run that looked at its balances has no alarms or names them."""
+        alone = self.flat("alone", [0.0, 0.25])
+        for alarms, words in ((None, "not recorded"), ([], "none"), ([synthetic.ALARM], "energy-balance")):
+            record = json.loads((alone / "run.json").read_text())
+            record["alarms"] = alarms
+            if alarms is None:
+                del record["alarms"]
+            (alone / "run.json").write_text(json.dumps(record))
+            process = subprocess.run(
+                [sys.executable, locations.COMPARISONS, "report", str(alone)], capture_output=True, text=True
+            )
+            self.assertEqual((process.returncode, process.stderr), (0, ""))
+            page = (alone / "report" / "report.html").read_text()
+            self.assertRegex(page, rf"<th scope=\"row\">alarms</th><td>{words}")
+            self.assertIn("<td>as-printed</td>", page)
+            self.assertIn("layer of ε = 1.2 nm", page)
+            self.assertNotRegex(page, r"(?:src|href)=\"(?!data:)")
 
     def test_a_full_disk_names_the_file(self):
         for name in ("metrics.json", "histories.png", "report.html"):

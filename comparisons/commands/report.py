@@ -1,0 +1,33 @@
+"""`endoflow report DIR [-o DIR]`: a page of one run with plots, numbers, alarms, parameters, provenance.
+
+Writes report.html and its plots. Exit codes: 0 done; 2 bad command line; 4 the run cannot be read or the page cannot be
+written; 130 interrupted.
+"""
+
+import argparse
+from pathlib import Path
+
+from comparisons.files import write_text
+
+
+def parsed(arguments):
+    """The command line as a namespace."""
+    parser = argparse.ArgumentParser(prog="endoflow report", description="Make a page of one run.", allow_abbrev=False)
+    parser.add_argument("directory", metavar="DIR", type=Path, help="directory of a run")
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="where to write (default: DIR/report)")
+    return parser.parse_args(arguments)
+
+
+def run(options):
+    """Run the command; returns its exit code."""
+    import endoflow
+    from comparisons.drawing import run_plots
+    from comparisons.page.run_report import run_html
+
+    found = endoflow.load(options.directory)
+    output = options.output or options.directory / "report"
+    output.mkdir(parents=True, exist_ok=True)
+    drawn = run_plots.write_all(found, output)
+    write_text(output / "report.html", run_html(found, drawn, output))
+    print(f"report  {output / 'report.html'}")
+    return 0

@@ -1,0 +1,54 @@
+"""Plots of a single run."""
+
+from comparisons.drawing import style
+
+style.apply()
+
+import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
+import numpy as np  # noqa: E402
+
+from comparisons.drawing.pictures import Panel, gallery  # noqa: E402
+from comparisons.drawing.plots import save  # noqa: E402
+
+#: Panels of the picture of the membrane.
+PANELS = 4
+
+
+def write_all(run, directory):
+    """Write the plots of an endoflow.Run into directory (Path); returns {name: title}."""
+    figures = {
+        "run_membranes": ("The membrane, coloured by molecule concentration c", membranes(run)),
+        "run_histories": ("Histories", histories(run)),
+    }
+    for name, (_, figure) in figures.items():
+        save(figure, directory, name)
+    return {name: title for name, (title, _) in figures.items()}
+
+
+def membranes(run):
+    """Output shapes, evenly chosen up to a little after budding or to the end."""
+    times = run.shape_times
+    end = min(times[-1], 1.2 * (run.event_time("budding") or times[-1]))
+    wanted = np.linspace(times[0], end, PANELS + 1)[1:] if len(times) > 1 else times
+    chosen = np.unique(np.argmin(np.abs(times[:, None] - wanted), axis=0))
+    title = "shape {:g}" if run.engine == "statics" else "t = {:.4g} µs"
+    return gallery([("", [Panel(title.format(times[index]), run.shapes[index]) for index in chosen])])
+
+
+def histories(run):
+    """Every quantity of style.HISTORY_PLOTS against time, or against the number of a stationary shape."""
+    figure, grid = plt.subplots(2, 4, figsize=(12.4, 5.2), layout="constrained")
+    colour = style.ENGINE_COLOURS.get(run.engine, style.SECOND_RUN_COLOUR)[0]
+    grid.flat[-1].set_axis_off()
+    for axes, (column, shown) in zip(grid.flat, style.HISTORY_PLOTS.items()):
+        values = run.history[column] * shown.factor
+        axes.set_title(style.axis_label(column))
+        axes.set_xlabel("shape" if run.engine == "statics" else "time (µs)")
+        if not np.isfinite(values).any():
+            axes.text(0.5, 0.5, "none in this run", transform=axes.transAxes, ha="center", color="#777777")
+            axes.set_yticks([])
+            continue
+        axes.plot(run.history["time_us"], values, color=colour, marker="o" if len(values) == 1 else "")
+        if run.event_time("budding") is not None:
+            axes.axvline(run.event_time("budding"), color="#888888", linewidth=0.9, linestyle=":")
+    return figure

@@ -1,0 +1,68 @@
+"""report.html of a single run."""
+
+from comparisons.drawing import style
+from comparisons.measures.basis import basis
+from comparisons.measures.metrics import flat_parameters
+from comparisons.page import report
+from comparisons.page.report import escaped, figures, quantity, setting
+from comparisons.page.study_report import page, parameters_table
+from endoflow.history import unit_of
+
+
+def run_html(run, drawn, directory):
+    """The page of an endoflow.Run; drawn: {plot: title}, written into directory (Path)."""
+    plots = "".join(report.plot(directory / f"{name}.svg", title) for name, title in drawn.items())
+    basics = report.table(["", ""], [("", [escaped(what), escaped(value)]) for what, value in basis(run)], "text")
+    sections = [
+        ("What the numbers rest on", basics),
+        ("Plots", plots),
+        ("Last row of history.csv", last_row(run)),
+        ("Parameters", parameters_table(flat_parameters(run.parameters))),
+        ("Provenance", provenance(run)),
+    ]
+    name = run.parameters.get("case", {}).get("name", "run")
+    found = [f"accuracy alarm: {alarm}" for alarm in run.alarms]
+    if run.record.get("state") != "finished":
+        found.append(f"the run did not finish: its state is {run.record.get('state')!r}")
+    subtitle = f"Case “{name}” · {style.ENGINE_NAMES.get(run.engine, run.engine)} · {extent(run)}"
+    return page("endoflow report", f"Run “{name}”", subtitle, found, cards(run), sections, run.directory)
+
+
+def extent(run):
+    """How far the run goes, in words."""
+    if run.engine == "statics":
+        return f"{len(run.shapes)} stationary shape(s)"
+    return f"to {run.history['time_us'][-1]:.4g} µs"
+
+
+def cards(run):
+    """The key numbers on top: (title, ready HTML value, note)."""
+    last = {name: values[-1] for name, values in run.history.items()}
+    found = [("Ended with", escaped(run.record.get("exit_reason") or "–"), extent(run))]
+    if run.engine != "statics":
+        found.append(("Budding", quantity(run.event_time("budding"), 4, "µs"), "neck radius below 5 nm"))
+    for column in ("neck_radius_nm", "bud_diameter_nm", "bud_height_nm"):
+        value = float(last[column])
+        found.append(
+            (style.HISTORY_PLOTS[column].title, quantity(None if value != value else value, 4, "nm"), "at the end")
+        )
+    return found
+
+
+def last_row(run):
+    """Every column's last value with its unit."""
+    rows = []
+    for column, values in run.history.items():
+        value, unit = float(values[-1]), unit_of(column)
+        shown = "–" if value != value else figures(value, 5)
+        rows.append(("", [f"<code>{escaped(column)}</code>", shown, escaped("" if unit == "1" else unit)]))
+    return report.table(["", "value", "unit"], rows)
+
+
+def provenance(run):
+    """Everything else in run.json."""
+    record = {key: value for key, value in run.record.items() if key not in ("parameters", "alarms")}
+    flat = report.flattened(record)
+    return report.table(
+        ["", ""], [("", [f"<code>{escaped(key)}</code>", setting(value, 6)]) for key, value in flat.items()], "text"
+    )
