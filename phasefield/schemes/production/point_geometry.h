@@ -44,6 +44,7 @@ struct StepNumbers {
     MoleculeParameters molecules;
     MembraneWeight weight;
     double profile_relaxation = numerics.production.profile_relaxation;  // M of this step [nm/µs]
+    bool inextensible = true;                                            // s is one but for what the tension leaves
 };
 
 inline constexpr double surface_floor = constant("surface_floor");

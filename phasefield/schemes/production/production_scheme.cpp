@@ -43,7 +43,9 @@ ProductionScheme::ProductionScheme(const Parameters& parameters, MPI_Comm commun
       numbers_{0, parameters.phase_field, parameters.fluid, parameters.molecules,
                membrane_weight(parameters.fluid, parameters.phase_field.viscosity_mean)},
       solver_(parameters, model_, communicator, newton_part * position_tolerance(parameters)),
-      nominal_(parameters.time.initial_step) {}
+      nominal_(parameters.time.initial_step) {
+    numbers_.inextensible = parameters.membrane.inextensible;
+}
 
 namespace {
 

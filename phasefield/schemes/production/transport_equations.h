@@ -42,7 +42,8 @@ inline double stretch_diffusivity(const StepNumbers& step) {
 
 /// The molecules ride on the membrane that the diffusion of s, D_s ∇_Γ s, moves along itself. Where P:∇u crowds the
 /// membrane within a cell it crowds c, too, and the force e ∇c crowds both further, at a rate of e c k/(ν₁ + ν₂) for
-/// wave numbers k that the tension does not reach. Diffusion of c would hold that back, too, but spread the coat.
+/// wave numbers k that the tension does not reach. Diffusion of c would hold that back, too, but spread the coat. A
+/// membrane that may stretch keeps its s, and its molecules stay.
 template <class Number>
 void add_redistribution(const Number& c, const AtPoint<Number>& s, const PointGeometry<Number>& p, const Number& weight,
                         const StepNumbers& step, AtPoint<Number>& row) {
@@ -62,7 +63,7 @@ void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     const Number phi2 = p.layer.phi * p.layer.phi, weight = cut_density(p.layer);
     add_alignment(c, past.molecules_normal, normal_diffusivity_of_molecules(step) * p.surface, row[molecule_density]);
     add_diffusion(c, molecule_leak * (phi2 * phi2), row[molecule_density]);
-    add_redistribution(c.value, x[membrane_stretch], p, weight, step, row[molecule_density]);
+    if (step.inextensible) add_redistribution(c.value, x[membrane_stretch], p, weight, step, row[molecule_density]);
     row[molecule_potential].value = p.surface * mu.value;
     if (step.molecules.transport == Transport::cahn_hilliard) {
         const double width = step.molecules.interface_width;
