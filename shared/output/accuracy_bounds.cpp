@@ -10,23 +10,25 @@ bool keeps_its_area(const Parameters& p) {
     return p.membrane.inextensible && p.fluid.dynamics == Dynamics::flow;
 }
 
+bool moves_in_fluid(const Parameters& p) {
+    return p.fluid.dynamics == Dynamics::flow;
+}
+
 constexpr const char* finer_elements = "raise boundary_integral.elements, or lower time.tolerance";
 constexpr const char* finer_layer = "lower phase_field.epsilon (and cell_size with it), or time.tolerance";
 
 // An accurate run of either engine stays two orders of magnitude below its bounds; figures such as the time of budding
-// are off by per cents where the bounds are left, and by tens of per cents at the limits.
+// are off by per cents where the bounds are left, and by tens of per cents at the limits. Without a fluid a neck closes
+// in finite time, and no mesh follows its last nanometre: that raises the alarm, but the run ends when the neck has
+// closed.
 const std::vector<AccuracyBound>& boundary_integral_bounds() {
     using enum AccuracyMeasure;
     static const std::vector<AccuracyBound> bounds{
-        {"energy-balance",
-         "boundary-integral",
-         "energy_balance_relative",
-         value,
-         1e-3,
-         0.5,
-         "energy's rate against the power that the fluid and the molecules take",
-         finer_elements,
-         {}},
+        {"energy-balance", "boundary-integral", "energy_balance_relative", value, 1e-3, 0.5,
+         "energy's rate against the power that the fluid and the molecules take", finer_elements, moves_in_fluid},
+        {"energy-balance", "boundary-integral", "energy_balance_relative", value, 1e-3, 2.0,
+         "energy's rate against what the membrane's own mobility takes, without a fluid", finer_elements,
+         [](const Parameters& p) { return !moves_in_fluid(p); }},
         {"mass-drift",
          "boundary-integral",
          "molecule_mass_nm2",
