@@ -34,7 +34,9 @@ void RunDirectory::prepare_fresh() const {
     if (fs::exists(record())) {
         const auto destination = unused_number(earlier());
         make_directory(destination);
-        for (const auto& item : {history(), shapes(), log(), checkpoint(), fields(), field_index(), record()}) {
+        auto items = drawings();
+        items.insert(items.end(), {history(), shapes(), log(), checkpoint(), fields(), field_index(), record()});
+        for (const auto& item : items) {
             if (!fs::exists(item)) continue;
             std::error_code failure;
             fs::rename(item, destination / item.filename(), failure);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 namespace endoflow {
 
@@ -16,12 +17,16 @@ struct RunDirectory {
     [[nodiscard]] std::filesystem::path shapes_at_checkpoint() const { return checkpoint() / "shapes.h5"; }
     [[nodiscard]] std::filesystem::path fields() const { return root / "fields"; }
     [[nodiscard]] std::filesystem::path field_index() const { return root / "fields.pvd"; }
+    /// What commands draw from the run where nobody says otherwise: `movie`, `report`, `revolve`.
+    [[nodiscard]] std::vector<std::filesystem::path> drawings() const {
+        return {root / "movie.mp4", root / "report", root / "membrane", root / "membrane.pvd"};
+    }
     [[nodiscard]] std::filesystem::path earlier() const { return root / "earlier"; }
     [[nodiscard]] std::filesystem::path lock() const { return root / "lock"; }
 
     /// Makes root if it is not there. Throws IoError when it cannot be written.
     void make_root() const;
-    /// Makes checkpoint/; moves a run that is already there to earlier/N/. Throws IoError.
+    /// Makes checkpoint/; moves a run that is already there, and what was drawn from it, to earlier/N/. Throws IoError.
     void prepare_fresh() const;
     /// Throws IoError unless root holds a run that can be continued.
     void require_run() const;

@@ -162,8 +162,11 @@ TEST_CASE("a run's directory: record, events, restart, and an earlier run that i
     CHECK_THAT(final_record["provenance"]["compiler"].get<std::string>(), Contains("GNU"));
 #endif
 
+    std::ofstream(root / "movie.mp4") << "drawn from the earlier run";
     RunOutput(parameters, test_engine(), root, StartMode::fresh).finish(ExitReason::done);
     CHECK(nlohmann::json::parse(content(root / "earlier/1/run.json")) == final_record);
+    CHECK(std::filesystem::exists(root / "earlier/1/movie.mp4"));
+    CHECK(!std::filesystem::exists(root / "movie.mp4"));
     CHECK_THROWS_AS(RunOutput(parameters, test_engine(), directory.path() / "empty", StartMode::restart), IoError);
     auto other = test_engine();
     other.name = "phase-field";
