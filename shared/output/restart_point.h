@@ -22,6 +22,7 @@ inline constexpr const char* shapes = "shapes";      // shapes up to its time
 inline constexpr std::uintmax_t largest_record = std::uintmax_t{1} << 26;
 
 /// What a restart goes on from.
+// NOLINTNEXTLINE(bugprone-exception-escape): what the analysis sees thrown in JSON's move is its own assertion.
 struct RestartPoint {
     Checkpoint checkpoint;
     RunRecord record;              // as of the checkpoint
