@@ -24,8 +24,8 @@ namespace endoflow::cli {
 namespace {
 
 const std::vector<std::string> engines{"boundary-integral", "phase-field"};
-const std::vector<std::string> commands{"run",    "compare", "converge", "sweep",  "reproduce", "movie",  "revolve",
-                                        "report", "laws",    "statics",  "params", "check",     "summary"};
+const std::vector<std::string> commands{"run",    "compare", "converge", "sweep",   "reproduce", "movie", "revolve",
+                                        "report", "modes",   "laws",     "statics", "params",    "check", "summary"};
 
 /// Commands that are Python: modules in comparisons/commands/.
 const std::vector<std::string> scripts{"compare", "converge", "sweep", "reproduce", "movie", "revolve", "report"};
@@ -41,6 +41,7 @@ constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, comp
   endoflow report DIR [-o DIR]                             a page of one run: plots, numbers, alarms, provenance
   endoflow movie DIR [-o FILE.mp4|FILE.gif]                a run as a film (needs ffmpeg)
   endoflow revolve DIR [--angle DEGREES]                   a run's membrane as surfaces in space, for ParaView
+  endoflow modes DIR [--modes 1:8] [--times N]             a sharp run's azimuthal modes: does the bud stay round?
   endoflow statics CASE.toml [-o DIR] [--continue-in KEY=END]               stationary shapes of the sharp membrane
   endoflow params [SECTION] [--markdown|--toml|--json]     every parameter: default, unit, bounds, meaning
   endoflow laws [CASE.toml] [--set section.key=value]...   the constitutive laws b(c), H0(c) as CSV
@@ -155,6 +156,7 @@ int dispatch(int argc, char** argv) {
         become_python("comparisons", {argv + 1, argv + argc});
     if (command == "statics") become_program("endoflow-statics", {argv + 2, argv + argc});
     if (command == "help") return help(argc - 1, argv + 1);
+    if (command == "modes") become_program("endoflow-modes", {argv + 2, argv + argc});
     if (command == "laws") return laws(argc - 1, argv + 1);
     if (command == "params") return params(argc - 1, argv + 1);
     if (command == "check") return check(argc - 1, argv + 1);

@@ -1,0 +1,58 @@
+// endoflow-modes: azimuthal modes of a finished run of the sharp engine.
+
+#include <cblas.h>
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "boundary_integral/modes/run_modes.h"
+#include "command_line.h"
+#include "launcher.h"
+#include "shared/support/error.h"
+
+namespace endoflow::cli {
+
+namespace {
+
+// "FIRST:LAST" or one number.
+void read_range(const std::string& text, int& first, int& last) {
+    const auto number = [&](std::string_view part) {
+        int value = 0;
+        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+        if (error != std::errc{} || end != part.data() + part.size() || part.empty()) {
+            throw InputError("--modes: FIRST:LAST, not '" + text + "'");
+        }
+        return value;
+    };
+    const std::size_t colon = text.find(':');
+    first = number(std::string_view(text).substr(0, colon));
+    last = colon == std::string::npos ? first : number(std::string_view(text).substr(colon + 1));
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Azimuthal modes of a finished run of the boundary-integral engine: does the bud stay round?",
+                 "endoflow modes");
+    boundary_integral::ModesRequest request;
+    std::string modes = "1:8";
+    app.add_option("RUN_DIR", request.run, "directory of the run")->required();
+    app.add_option("-o,--output", request.directory, "directory of the result [RUN_DIR/modes]");
+    app.add_option("--modes", modes, "FIRST:LAST azimuthal modes [1:8]");
+    app.add_option("--times", request.times, "how many of the run's shapes, evenly spread [20]");
+    if (!parse(app, argc, argv)) return 0;
+    read_range(modes, request.first_mode, request.last_mode);
+    if (request.directory.empty()) request.directory = request.run / "modes";
+    require_one_process("endoflow modes", "");
+    openblas_set_num_threads(1);  // the layers' own threads share the work
+    boundary_integral::write_modes(request, [](const std::string& line) { fmt::print("{}\n", line); });
+    fmt::print("results in {}\n", request.directory.string());
+    return 0;
+}
+
+}  // namespace
+
+}  // namespace endoflow::cli
+
+int main(int argc, char** argv) {
+    using namespace endoflow::cli;
+    return report(attempt([&] { return run(argc, argv); }));
+}

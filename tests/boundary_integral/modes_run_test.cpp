@@ -1,0 +1,106 @@
+// Modes of a finished run, from its directory.
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "boundary_integral/evolution/membrane_dynamics.h"
+#include "boundary_integral/modes/recorded_run.h"
+#include "boundary_integral/modes/run_modes.h"
+#include "boundary_integral/modes/spectrum.h"
+#include "boundary_integral/simulation.h"
+#include "shared/output/hdf5_file.h"
+#include "shared/support/error.h"
+
+namespace {
+
+using namespace endoflow;
+using namespace endoflow::boundary_integral;
+namespace fs = std::filesystem;
+
+struct ScratchDirectory {
+    fs::path path = fs::temp_directory_path() / "endoflow-modes-test";
+    ScratchDirectory() { fs::remove_all(path); }
+    ~ScratchDirectory() { fs::remove_all(path); }
+};
+
+Parameters short_run() {
+    Parameters parameters;
+    parameters.boundary_integral.elements = 40;
+    parameters.molecules.interface_width = 5;
+    parameters.time.end = 0.2;
+    parameters.output.shape_interval = 0.05;
+    parameters.output.field_interval = 0;
+    return parameters;
+}
+
+// growth_per_us of the fastest eigenmode, by (time, mode) in the file's order.
+std::vector<double> growth_rates(const fs::path& file) {
+    std::ifstream stream(file);
+    std::vector<double> rates;
+    std::string line;
+    std::getline(stream, line);
+    while (std::getline(stream, line)) {
+        std::istringstream cells(line);
+        std::vector<std::string> values;
+        for (std::string cell; std::getline(cells, cell, ',');) values.push_back(cell);
+        if (values[2] == "0") rates.push_back(std::stod(values[3]));
+    }
+    return rates;
+}
+
+}  // namespace
+
+TEST_CASE("the modes of a run's directory are those of its shapes", "[modes]") {
+    const ScratchDirectory scratch;
+    const Parameters parameters = short_run();
+    {
+        RunOutput output(parameters, identity(parameters), scratch.path, StartMode::fresh);
+        output.finish(simulate(parameters, output));
+    }
+    const RecordedRun run(scratch.path);
+    REQUIRE(run.times().size() == 5);
+    CHECK(run.parameters().boundary_integral.elements == 40);
+
+    // The first shape is the initial one: its coefficients come back to round-off.
+    const MembraneDynamics dynamics(parameters);
+    const MembraneState initial = dynamics.unpack(dynamics.initial_vector()), read = run.state(dynamics.space(), 0);
+    CHECK((read.r - initial.r).cwiseAbs().maxCoeff() < 1e-11);
+    CHECK((read.z - initial.z).cwiseAbs().maxCoeff() < 1e-11);
+    CHECK((read.c - initial.c).cwiseAbs().maxCoeff() < 1e-12);
+
+    std::size_t lines = 0;
+    write_modes({scratch.path, scratch.path / "modes", 1, 2, 3}, [&](const std::string&) { ++lines; });
+    CHECK(lines == 3);
+    const std::vector<double> rates = growth_rates(scratch.path / "modes" / "modes.csv");
+    REQUIRE(rates.size() == 6);
+    for (const double rate : rates) CHECK(std::isfinite(rate));
+    const Hdf5File shapes(scratch.path / "modes" / "eigenshapes.h5", Hdf5File::Mode::read);
+    CHECK(shapes.read_number_attribute("/times/000002", "time") == Approx(0.2));
+    CHECK(shapes.read_number_attribute("/times/000002/mode_2", "growth_per_us") == Approx(rates[5]).epsilon(1e-7));
+    const std::vector<double> w = shapes.read_array("/times/000002/mode_2/w");
+    CHECK(w.size() == 321);
+    CHECK(*std::max_element(w.begin(), w.end()) == Approx(1).epsilon(1e-12));  // largest displacement: 1 nm, real
+}
+
+TEST_CASE("a directory without a sharp run has no modes", "[modes]") {
+    const ScratchDirectory scratch;
+    CHECK_THROWS_AS(RecordedRun(scratch.path), IoError);
+    CHECK_THROWS_AS(write_modes({scratch.path, scratch.path / "modes", 0, 8, 3}, [](const std::string&) {}),
+                    InputError);
+}
+
+TEST_CASE("the fastest modes of a matrix", "[modes]") {
+    // Rates -1, 2 and the pair 0.5 +- 3 i.
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(4, 4);
+    matrix.diagonal() << -1, 2, 0.5, 0.5;
+    matrix(2, 3) = -3;
+    matrix(3, 2) = 3;
+    matrix(0, 1) = 5;
+    const std::vector<Eigenmode> modes = fastest_modes(matrix, 2);
+    REQUIRE(modes.size() == 2);
+    CHECK(std::abs(modes[0].rate - 2.0) < 1e-13);
+    CHECK(std::abs(modes[1].rate - std::complex<double>(0.5, 3)) < 1e-13);
+    CHECK((matrix * modes[1].shape - modes[1].rate * modes[1].shape).norm() < 1e-13);
+}
