@@ -37,7 +37,7 @@ int run(int argc, char** argv) {
     app.add_option("RUN_DIR", request.run, "directory of the run")->required();
     app.add_option("-o,--output", request.directory, "directory of the result [RUN_DIR/modes]");
     app.add_option("--modes", modes, "FIRST:LAST azimuthal modes [1:8]");
-    app.add_option("--times", request.times, "how many of the run's shapes, evenly spread [20]");
+    app.add_option("--times", request.times, "at the shapes nearest to this many evenly spread times [20]");
     if (!parse(app, argc, argv)) return 0;
     read_range(modes, request.first_mode, request.last_mode);
     if (request.directory.empty()) request.directory = request.run / "modes";

@@ -1,5 +1,5 @@
 include(GNUInstallDirs)
-install(TARGETS endoflow endoflow-boundary-integral endoflow-statics RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS endoflow endoflow-boundary-integral endoflow-modes endoflow-statics RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 if(ENDOFLOW_PHASEFIELD)
   install(TARGETS endoflow-phase-field RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

@@ -23,7 +23,7 @@ constexpr double largest_misfit = 1e-8;  // nm, of stored points against the spl
 /// Appends SECTION.KEY=VALUE of a section and of the sections within it.
 void add_overrides(const std::string& section, const RunRecord& keys, std::vector<std::string>& overrides) {
     for (const auto& [key, value] : keys.items()) {
-        const std::string name = section + "." + key;
+        const std::string name = fmt::format("{}.{}", section, key);
         if (value.is_object())
             add_overrides(name, value, overrides);
         else

@@ -21,12 +21,16 @@ namespace {
 constexpr std::size_t fastest = 3;       // of each mode at each time
 constexpr Index points_per_element = 8;  // of eigenshapes, as of the run's shapes
 
-// Indices of `count` shapes, evenly spread, the first and the last among them.
-std::vector<std::size_t> chosen(std::size_t shapes, std::size_t count) {
-    if (count >= shapes) count = shapes;
+/// Indices of the shapes nearest to `count` times that are evenly spread from the first shape's to the last one's.
+std::vector<std::size_t> chosen(const std::vector<double>& times, std::size_t count) {
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < count; ++i) {
-        result.push_back(count == 1 ? shapes - 1 : (i * (shapes - 1) + (count - 1) / 2) / (count - 1));
+        const double part = count == 1 ? 1.0 : static_cast<double>(i) / static_cast<double>(count - 1);
+        const double wanted = times.front() + part * (times.back() - times.front());
+        const auto nearest =
+            std::ranges::min_element(times, {}, [wanted](double time) { return std::abs(time - wanted); });
+        const auto index = static_cast<std::size_t>(nearest - times.begin());
+        if (result.empty() || result.back() != index) result.push_back(index);
     }
     return result;
 }
@@ -45,7 +49,7 @@ class Analysis {
 
     void execute() {
         std::size_t number = 0;
-        for (const std::size_t index : chosen(run_.times().size(), request_.times)) {
+        for (const std::size_t index : chosen(run_.times(), request_.times)) {
             time_ = run_.times()[index];
             const MembraneState state = run_.state(dynamics_.space(), index);
             const Evaluation e = dynamics_.evaluate(state_vector(dynamics_, state));
