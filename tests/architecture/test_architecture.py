@@ -3,6 +3,7 @@
     python3 tests/architecture/test_architecture.py
 """
 
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -40,6 +41,15 @@ class Picture(unittest.TestCase):
     def test_is_up_to_date(self):
         drawn = (ROOT / "docs" / "images" / "architecture.svg").read_text("utf-8")
         self.assertTrue(drawn == picture.picture(), "draw it again: python3 tools/architecture/picture.py")
+
+    def test_command_line(self):
+        """A word that is no file's name is answered, not taken as one."""
+        program = ROOT / "tools" / "architecture" / "picture.py"
+        with tempfile.TemporaryDirectory() as scratch:
+            for word, exit_code in (("--help", 0), ("--no-such-option", 2), ("x.svg", 0)):
+                done = subprocess.run([sys.executable, program, word], cwd=scratch, capture_output=True, text=True)
+                self.assertEqual(done.returncode, exit_code, done.stderr)
+            self.assertEqual([file.name for file in Path(scratch).iterdir()], ["x.svg"])
 
     def test_rows(self):
         graph = {"a": {"b", "c"}, "b": {"d"}, "c": {"d"}}

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""tools/architecture/picture.py [FILE]: the parts of the project, the folders inside and what uses what, as an SVG picture.
+"""The parts of the project, the folders inside and what uses what, as an SVG picture.
 
-Drawn from the sources alone: a folder stands above all that it uses, a line leads to what it uses directly. Without FILE:
-docs/images/architecture.svg, which tests/architecture compares with what this program draws.
+Drawn from the sources alone: a folder stands above all that it uses, a line leads to what it uses directly.
+tests/architecture compares docs/images/architecture.svg with what this program draws.
 """
 
+import argparse
 import html
-import sys
+from pathlib import Path
 
 import folders
 import sources
@@ -184,7 +185,13 @@ def picture():
     return "\n".join([head, *between_lines, *(part.svg() for part in parts.values()), strip, "</svg>"]) + "\n"
 
 
+def main(arguments=None):
+    """Draw to the file named on the command line."""
+    parser = argparse.ArgumentParser(prog="tools/architecture/picture.py", description=__doc__.splitlines()[0])
+    default = sources.ROOT / "docs" / "images" / "architecture.svg"
+    parser.add_argument("file", nargs="?", type=Path, default=default, help="docs/images/architecture.svg if not given")
+    parser.parse_args(arguments).file.write_text(picture(), encoding="utf-8")
+
+
 if __name__ == "__main__":
-    target = sys.argv[1] if len(sys.argv) > 1 else sources.ROOT / "docs" / "images" / "architecture.svg"
-    with open(target, "w", encoding="utf-8") as file:
-        file.write(picture())
+    main()
