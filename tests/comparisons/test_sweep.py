@@ -3,6 +3,7 @@
 import unittest
 
 import locations  # noqa: F401
+from browser import Browser, chromium
 from studies import BOUNDARY_INTEGRAL, PATCHES, SweepTest
 
 from comparisons.drawing import sweep_plots
@@ -52,6 +53,22 @@ class Sweep(SweepTest):
         self.assertEqual(figure.axes[-1].get_xlabel(), "molecules.patch_radius (nm)")
         self.sweep("--vary", PATCHES, *BOUNDARY_INTEGRAL, "-o", "s")
         self.assertIn("molecules.patch_radius (nm)", (self.scratch / "s/sweep.svg").read_text())
+
+    @unittest.skipUnless(chromium(), "no Chromium")
+    def test_page_on_a_phone(self):
+        """The page does not move sideways; plots and the table do, plots with letters of a size, rows with their heading."""
+        self.sweep("--vary", PATCHES, *BOUNDARY_INTEGRAL, "-o", "a_directory_with_quite_a_long_name_for_a_narrow_screen")
+        with Browser() as browser:
+            browser.resize(400, 800)
+            report = self.scratch / "a_directory_with_quite_a_long_name_for_a_narrow_screen" / "report.html"
+            browser.open(report, "document.readyState === 'complete' && document.querySelector('.plot img') !== null")
+            self.assertLessEqual(browser.evaluate("document.documentElement.scrollWidth"), 400)
+            self.assertGreaterEqual(browser.evaluate("document.querySelector('.plot img').width"), 700)
+            place = "document.querySelector('tbody th').getBoundingClientRect().left"
+            before = browser.evaluate(place)
+            browser.evaluate("void (document.querySelector('.table').scrollLeft = 200)")
+            self.assertGreater(browser.evaluate("document.querySelector('.table').scrollLeft"), 100)
+            self.assertAlmostEqual(browser.evaluate(place), before, delta=13)  # the frame's own padding
 
     def test_refused_before_anything_runs(self):
         for values, message in (
