@@ -78,13 +78,16 @@ int main(int argc, char** argv) {
     const Ring target = ring_at(0.3);
     const RingSources sources = sources_seen_from(target);
     RingKernels kernels;
-    RingPressureKernels pressures;
+    RingDensities densities;
+    densities.resize(sources.size());
+    RingContributions contributions;
     const double single = median_rate(repeats, [&] { evaluate_ring_stokeslets(target.r, sources, kernels); });
     const double both = median_rate(repeats, [&] { evaluate_ring_kernels(target.r, sources, kernels); });
-    const double pressure = median_rate(repeats, [&] { evaluate_ring_pressures(target.r, sources, pressures); });
+    const double layers = median_rate(
+        repeats, [&] { evaluate_ring_layers(target.r, sources.size(), sources, densities, contributions); });
     std::printf(
-        "{\"stokeslet_4_components\": %.4g, \"stokeslet_and_stresslet_8_components\": %.4g, \"pressure_2_components\": "
-        "%.4g}\n",
-        single, both, pressure);
+        "{\"stokeslet_4_components\": %.4g, \"stokeslet_and_stresslet_8_components\": %.4g, "
+        "\"layers_of_velocity_and_pressure\": %.4g}\n",
+        single, both, layers);
     return 0;
 }

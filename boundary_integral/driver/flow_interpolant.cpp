@@ -8,29 +8,49 @@ constexpr std::size_t most_knots = 4;  // cubic: below the integrator's order, a
 
 }  // namespace
 
-void FlowInterpolant::start(double time, const FlowSolution& flow) {
+void FlowInterpolant::start(double time, const Evaluation& evaluation) {
     knots_.clear();
-    add(time, flow);
+    add(time, evaluation);
 }
 
-void FlowInterpolant::add(double time, const FlowSolution& flow) {
+void FlowInterpolant::add(double time, const Evaluation& evaluation) {
     if (knots_.size() == most_knots) knots_.pop_front();
-    knots_.push_back({time, flow.velocity, flow.multipliers.tension});
+    knots_.push_back({time, evaluation.flow, evaluation.operators});
 }
 
-FlowSolution FlowInterpolant::at(double time) const {
-    FlowSolution flow;
-    flow.velocity = Eigen::VectorXd::Zero(knots_.back().velocity.size());
-    flow.multipliers.tension = Eigen::VectorXd::Zero(knots_.back().tension.size());
+std::vector<double> FlowInterpolant::weights(double time) const {
+    std::vector<double> weights;
     for (const Knot& knot : knots_) {
-        double weight = 1.0;  // Lagrange's
+        double weight = 1.0;
         for (const Knot& other : knots_) {
             if (&other != &knot) weight *= (time - other.time) / (knot.time - other.time);
         }
-        flow.velocity += weight * knot.velocity;
-        flow.multipliers.tension += weight * knot.tension;
+        weights.push_back(weight);
+    }
+    return weights;
+}
+
+FlowSolution FlowInterpolant::at(double time) const {
+    const std::vector<double> weight = weights(time);
+    const FlowSolution& last = knots_.back().flow;
+    FlowSolution flow;
+    flow.velocity = Eigen::VectorXd::Zero(last.velocity.size());
+    flow.force = Eigen::VectorXd::Zero(last.force.size());
+    flow.multipliers.tension = Eigen::VectorXd::Zero(last.multipliers.tension.size());
+    for (std::size_t k = 0; k < knots_.size(); ++k) {
+        flow.velocity += weight[k] * knots_[k].flow.velocity;
+        flow.force += weight[k] * knots_[k].flow.force;
+        flow.multipliers.tension += weight[k] * knots_[k].flow.multipliers.tension;
     }
     return flow;
+}
+
+Eigen::VectorXd FlowInterpolant::wall_unknowns(double time, const BoxFlow& box) const {
+    const std::vector<double> weight = weights(time);
+    Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(box.walls().unknowns());
+    for (std::size_t k = 0; k < knots_.size(); ++k)
+        unknowns += weight[k] * box.wall_unknowns(*knots_[k].operators, knots_[k].flow);
+    return unknowns;
 }
 
 }  // namespace endoflow::boundary_integral

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <deque>
+#include <memory>
+#include <vector>
 
-#include "boundary_integral/flow/flow_model.h"
+#include "boundary_integral/evolution/membrane_dynamics.h"
 
 namespace endoflow::boundary_integral {
 
@@ -12,19 +14,24 @@ namespace endoflow::boundary_integral {
 class FlowInterpolant {
   public:
     /// Forgets what was before: the flow at a time where the integrator starts anew.
-    void start(double time, const FlowSolution& flow);
+    void start(double time, const Evaluation& evaluation);
     /// The flow at the end of a step; times increase.
-    void add(double time, const FlowSolution& flow);
+    void add(double time, const Evaluation& evaluation);
 
-    /// Velocity and tension at a time between the last two, or at the only one; the rest is empty.
+    /// Velocity, force and tension at a time between the last two, or at the only one; the rest is empty.
     [[nodiscard]] FlowSolution at(double time) const;
+    /// What goes with them on the walls of the box, as WallPanels numbers it.
+    [[nodiscard]] Eigen::VectorXd wall_unknowns(double time, const BoxFlow& box) const;
 
   private:
     struct Knot {
         double time;  // µs
-        Eigen::VectorXd velocity, tension;
+        FlowSolution flow;
+        std::shared_ptr<const MobilityOperators> operators;
     };
     std::deque<Knot> knots_;
+
+    [[nodiscard]] std::vector<double> weights(double time) const;  // Lagrange's, of the knots
 };
 
 }  // namespace endoflow::boundary_integral

@@ -42,7 +42,10 @@ bool OutputSeries::writes_fields() const {
 
 void OutputSeries::write_initial(const Evaluation& evaluation) {
     write_shape(0.0, evaluation.state, evaluation.flow);
-    if (writes_fields()) write_fields(0.0, evaluation);
+    if (writes_fields()) {
+        write_fields(0.0, evaluation.state, evaluation.flow,
+                     dynamics_.box()->wall_unknowns(*evaluation.operators, evaluation.flow));
+    }
 }
 
 void OutputSeries::write_until(double end, const StiffIntegrator& integrator) {
@@ -50,7 +53,8 @@ void OutputSeries::write_until(double end, const StiffIntegrator& integrator) {
         write_shape(time, dynamics_.unpack(state_at(time, integrator)), flow_.at(time));
     if (!writes_fields()) return;
     for (double time = next_field_time(); !later(time, end); time = next_field_time())
-        write_fields(time, dynamics_.evaluate(state_at(time, integrator)));
+        write_fields(time, dynamics_.unpack(state_at(time, integrator)), flow_.at(time),
+                     flow_.wall_unknowns(time, *dynamics_.box()));
 }
 
 void OutputSeries::write_shape_at(double time, const StiffIntegrator& integrator) {
@@ -72,9 +76,11 @@ void OutputSeries::write_shape(double time, const MembraneState& state, const Fl
     last_shape_ = time;
 }
 
-void OutputSeries::write_fields(double time, const Evaluation& evaluation) {
+void OutputSeries::write_fields(double time, const MembraneState& state, const FlowSolution& flow,
+                                const Eigen::VectorXd& wall_unknowns) {
     const PhaseTimer timer(output_, "fields");
-    const QuadGrid grid = field_grid(parameters_, dynamics_, evaluation, parameters_.boundary_integral.field_spacing);
+    const QuadGrid grid =
+        field_grid(parameters_, dynamics_, state, flow, wall_unknowns, parameters_.boundary_integral.field_spacing);
     fields_.add(time, vtu_text(grid));
 }
 

@@ -43,7 +43,8 @@ class OutputSeries {
     [[nodiscard]] double next_shape() const;
     [[nodiscard]] double next_field_time() const;
     void write_shape(double time, const MembraneState& state, const FlowSolution& flow);
-    void write_fields(double time, const Evaluation& evaluation);
+    void write_fields(double time, const MembraneState& state, const FlowSolution& flow,
+                      const Eigen::VectorXd& wall_unknowns);
 };
 
 }  // namespace endoflow::boundary_integral

@@ -35,7 +35,7 @@ class RunLoop {
             if (output_.checkpoint_due()) output_.write_checkpoint(resume_);
             advance();
             const Evaluation accepted = dynamics_.evaluate(integrator_.state(), operators_);
-            flow_.add(integrator_.time(), accepted.flow);
+            flow_.add(integrator_.time(), accepted);
             if (const auto reason = events_.look(integrator_, history_, series_)) return stop(*reason);
             series_.write_until(integrator_.time(), integrator_);
             history_.record(integrator_.time(), accepted, integrator_.last_order());
@@ -81,7 +81,7 @@ class RunLoop {
 
     void begin_section() {
         make_operators(start_.y);
-        flow_.start(start_.time, dynamics_.evaluate(start_.y, operators_).flow);
+        flow_.start(start_.time, dynamics_.evaluate(start_.y, operators_));
         resume_ = make_checkpoint();
     }
 

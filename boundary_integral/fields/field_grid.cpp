@@ -21,19 +21,20 @@ std::vector<double> equidistant(double end, double spacing) {
 
 }  // namespace
 
-QuadGrid field_grid(const Parameters& parameters, const MembraneDynamics& dynamics, const Evaluation& evaluation,
-                    double spacing) {
+QuadGrid field_grid(const Parameters& parameters, const MembraneDynamics& dynamics, const MembraneState& state,
+                    const FlowSolution& flow, const Eigen::VectorXd& wall_unknowns, double spacing) {
     const BoxFlow& box = *dynamics.box();
-    const FlowField field(parameters, dynamics.space(), evaluation.state, evaluation.samples,
-                          {evaluation.flow.velocity, evaluation.flow.force}, box.walls(),
-                          box.wall_unknowns(*evaluation.operators, evaluation.flow));
+    const MembraneSamples samples = sample(dynamics.space(), state);
+    const FlowField field(parameters, dynamics.space(), state, samples, {flow.velocity, flow.force}, box.walls(),
+                          wall_unknowns);
     QuadGrid grid{equidistant(parameters.domain.radius, spacing), equidistant(parameters.domain.height, spacing), {}};
     const std::size_t columns = grid.x.size(), rows = grid.y.size();
     std::vector<double> velocity(3 * columns * rows), pressure(columns * rows), phi(columns * rows);
     parallel_parts(static_cast<Index>(rows), box.threads(), [&](Index begin, Index end) {
+        RingLayers layers;
         for (auto j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end); ++j) {
             for (std::size_t i = 0; i < columns; ++i) {
-                const FieldValue value = field.at({grid.x[i], grid.y[j]}, margin_in_spacings * spacing);
+                const FieldValue value = field.at({grid.x[i], grid.y[j]}, margin_in_spacings * spacing, layers);
                 const std::size_t point = j * columns + i;
                 const bool outside = value.phase == Phase::extracellular;  // of the cell
                 velocity[3 * point] = value.u_r;

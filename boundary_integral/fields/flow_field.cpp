@@ -18,7 +18,7 @@ FlowField::FlowField(const Parameters& parameters, const MembraneSpace& space, c
                 parameters.fluid.viscosity_extracellular - parameters.fluid.viscosity_intracellular),
       walls_(walls, wall_unknowns) {}
 
-FieldValue FlowField::at(const Target& target, double margin) const {
+FieldValue FlowField::at(const Target& target, double margin, RingLayers& layers) const {
     const DomainParameters& domain = parameters_.domain;
     Target place{std::min(target.r, domain.radius - margin), std::clamp(target.z, margin, domain.height - margin)};
     const CurvePoint p = closest_on_membrane(space_, state_, samples_, place).point;
@@ -29,7 +29,6 @@ FieldValue FlowField::at(const Target& target, double margin) const {
         place = {std::max(p.r - margin * p.normal_r, 0.0), p.z - margin * p.normal_z};
         place.r = std::min(place.r, domain.radius - margin);
     }
-    RingLayers layers;
     layers.start(place);
     membrane_.add_to(layers, place);
     walls_.add_to(layers, place);

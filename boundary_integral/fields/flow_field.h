@@ -24,8 +24,12 @@ class FlowField {
               const Eigen::VectorXd& wall_unknowns);
 
     // Points nearer than `margin` [nm] to a wall or the membrane are moved along the normal to that distance from it;
-    // those at the membrane count as extracellular.
-    FieldValue at(const Target& target, double margin) const;
+    // those at the membrane count as extracellular. `layers` is room to work in, one for each thread.
+    FieldValue at(const Target& target, double margin, RingLayers& layers) const;
+    FieldValue at(const Target& target, double margin) const {
+        RingLayers layers;
+        return at(target, margin, layers);
+    }
 
   private:
     const Parameters& parameters_;

@@ -11,8 +11,36 @@ namespace endoflow::boundary_integral {
 namespace {
 
 constexpr int near_points = 24;           // per side of the closest point
-constexpr double near_distance = 1.0;     // in element lengths
+constexpr double near_distance = 0.7;     // in element lengths; as for the walls' panels
 constexpr double least_distance = 1e-12;  // nm
+
+// From 2.5 lengths of a cluster on, the parts of its kernels above the fifth degree are below 2e-6 of them.
+constexpr Index cluster_elements = 4;
+constexpr int cluster_points = 6;
+constexpr double far_distance = 2.5;  // in lengths of the cluster
+
+// T(i, j): a density at Gauss points, weighted, is replaced at the cluster's points by one with the same moments
+// against polynomials. The points are in (-1, 1).
+Eigen::MatrixXd moment_transfer(const QuadratureRule& to, const std::vector<double>& from) {
+    const auto legendre = [](const std::vector<double>& points, Index count) {
+        Eigen::MatrixXd values(static_cast<Index>(points.size()), count);
+        for (Index i = 0; i < values.rows(); ++i) {
+            const double x = points[static_cast<std::size_t>(i)];
+            values(i, 0) = 1.0;
+            values(i, 1) = x;
+            for (Index k = 2; k < count; ++k) {
+                const auto n = static_cast<double>(k);
+                values(i, k) = ((2.0 * n - 1.0) * x * values(i, k - 1) - (n - 1.0) * values(i, k - 2)) / n;
+            }
+        }
+        return values;
+    };
+    const auto count = static_cast<Index>(to.nodes.size());
+    Eigen::MatrixXd there = legendre(to.nodes, count);
+    for (Index k = 0; k < count; ++k) there.col(k) *= static_cast<double>(k) + 0.5;  // over Legendre's square norm
+    const Eigen::Map<const Eigen::VectorXd> weights(to.weights.data(), count);
+    return weights.asDiagonal() * there * legendre(from, count).transpose();
+}
 
 RingPoint ring(const CurvePoint& p) {
     return {p.r, p.z, p.normal_r, p.normal_z};
@@ -34,10 +62,48 @@ MembraneSources::MembraneSources(const MembraneSpace& space, const MembraneState
       lengths_(static_cast<std::size_t>(space.elements()), 0.0) {
     for (std::size_t i = 0; i < samples.curve.size(); ++i) {
         const CurvePoint& p = samples.curve[i];
-        densities_.push_back(
-            density(p, space.radial_rows[i], space.axial_rows[i], space.force_rows[i], space.weight[i]));
+        rings_.push_back(
+            {ring(p), density(p, space.radial_rows[i], space.axial_rows[i], space.force_rows[i], space.weight[i])});
         lengths_[i / static_cast<std::size_t>(space.points_per_element())] += space.weight[i] * p.g;
     }
+    for (Index first = 0; first < space.elements(); first += cluster_elements)
+        clusters_.push_back(cluster(first, std::min(cluster_elements, space.elements() - first)));
+}
+
+MembraneSources::Cluster MembraneSources::cluster(Index first_element, Index elements) const {
+    Cluster result{first_element, elements, {}, 0.0, 0.0, {}};
+    const double begin = static_cast<double>(first_element) * space_.element_width();
+    const double half = 0.5 * static_cast<double>(elements) * space_.element_width();
+    const auto first = static_cast<std::size_t>(first_element * space_.points_per_element());
+    const auto count = static_cast<std::size_t>(elements * space_.points_per_element());
+    std::vector<double> places;
+    for (std::size_t i = first; i < first + count; ++i) {
+        places.push_back((space_.xi[i] - begin) / half - 1.0);
+        result.centre.r += samples_.curve[i].r / static_cast<double>(count);
+        result.centre.z += samples_.curve[i].z / static_cast<double>(count);
+    }
+    for (Index e = first_element; e < first_element + elements; ++e)
+        result.length += lengths_[static_cast<std::size_t>(e)];
+    for (std::size_t i = first; i < first + count; ++i)
+        result.radius = std::max(result.radius, std::sqrt(squared_distance(samples_.curve[i], result.centre)));
+    const QuadratureRule rule = gauss_legendre(cluster_points);
+    const Eigen::MatrixXd transfer = moment_transfer(rule, places);
+    for (Index k = 0; k < cluster_points; ++k) {
+        const double xi = begin + half * (1.0 + rule.nodes[static_cast<std::size_t>(k)]);
+        RingDensity sum{};
+        for (std::size_t i = 0; i < count; ++i) {
+            const RingDensity& d = rings_[first + i].density;
+            const double part = transfer(k, static_cast<Index>(i));
+            sum.force_r += part * d.force_r;
+            sum.force_z += part * d.force_z;
+            sum.momentum_r += part * d.momentum_r;
+            sum.momentum_z += part * d.momentum_z;
+            sum.pressure_r += part * d.pressure_r;
+            sum.pressure_z += part * d.pressure_z;
+        }
+        result.rings.push_back({ring(curve_point(space_.radial().basis(xi), space_.axial().basis(xi), state_)), sum});
+    }
+    return result;
 }
 
 RingDensity MembraneSources::density(const CurvePoint& p, const BasisRow& radial, const BasisRow& axial,
@@ -56,24 +122,33 @@ RingDensity MembraneSources::density(const CurvePoint& p, const BasisRow& radial
 }
 
 void MembraneSources::add_to(RingLayers& layers, const Target& target) const {
-    const auto per_element = static_cast<std::size_t>(space_.points_per_element());
-    for (Index element = 0; element < space_.elements(); ++element) {
-        const std::size_t first = static_cast<std::size_t>(element) * per_element;
-        double closest = 1e300;
-        std::size_t closest_point = first;
-        for (std::size_t i = first; i < first + per_element; ++i) {
-            const double distance = squared_distance(samples_.curve[i], target);
-            if (distance < closest) {
-                closest = distance;
-                closest_point = i;
-            }
-        }
-        const double near = near_distance * lengths_[static_cast<std::size_t>(element)];
-        if (closest < near * near) {
-            add_near_element(layers, target, element, space_.xi[closest_point]);
+    for (const Cluster& cluster : clusters_) {
+        const double distance = std::hypot(cluster.centre.r - target.r, cluster.centre.z - target.z) - cluster.radius;
+        if (distance > far_distance * cluster.length) {
+            layers.add(cluster.rings);
             continue;
         }
-        for (std::size_t i = first; i < first + per_element; ++i) layers.add(ring(samples_.curve[i]), densities_[i]);
+        for (Index e = 0; e < cluster.elements; ++e) add_element(layers, target, cluster.first_element + e);
+    }
+}
+
+void MembraneSources::add_element(RingLayers& layers, const Target& target, Index element) const {
+    const auto per_element = static_cast<std::size_t>(space_.points_per_element());
+    const std::size_t first = static_cast<std::size_t>(element) * per_element;
+    double closest = 1e300;
+    std::size_t closest_point = first;
+    for (std::size_t i = first; i < first + per_element; ++i) {
+        const double distance = squared_distance(samples_.curve[i], target);
+        if (distance < closest) {
+            closest = distance;
+            closest_point = i;
+        }
+    }
+    const double near = near_distance * lengths_[static_cast<std::size_t>(element)];
+    if (closest < near * near) {
+        add_near_element(layers, target, element, space_.xi[closest_point]);
+    } else {
+        layers.add({&rings_[first], per_element});
     }
 }
 
@@ -88,7 +163,8 @@ void MembraneSources::add_near_element(RingLayers& layers, const Target& target,
         const BasisRow radial = space_.radial().basis(xi, element);
         const BasisRow axial = space_.axial().basis(xi, element);
         const CurvePoint x = curve_point(radial, axial, state_);
-        layers.add(ring(x), density(x, radial, axial, space_.force().basis(xi), rule.weights[i]));
+        const ChargedRing charged{ring(x), density(x, radial, axial, space_.force().basis(xi), rule.weights[i])};
+        layers.add({&charged, 1});
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The membrane as layers of rings, with the near-singular rule where a target is near.
+// The membrane as layers of rings: the near-singular rule where a target is near, few rings where it is far.
 
 #include <vector>
 
@@ -25,17 +25,28 @@ class MembraneSources {
     void add_to(RingLayers& layers, const Target& target) const;
 
   private:
+    // Neighbouring elements that a distant target sees as few rings: their densities' moments up to a degree are kept.
+    struct Cluster {
+        Index first_element, elements;
+        Target centre;
+        double radius, length;  // nm
+        std::vector<ChargedRing> rings;
+    };
+
     const MembraneSpace& space_;
     const MembraneState& state_;
     const MembraneSamples& samples_;
     double contrast_;
     Eigen::VectorXd u_r_, u_z_, f_r_, f_z_;
     QuadratureRule near_rule_;
-    std::vector<RingDensity> densities_;  // at the Gauss points
-    std::vector<double> lengths_;         // of the elements, nm
+    std::vector<ChargedRing> rings_;  // at the Gauss points
+    std::vector<double> lengths_;     // of the elements, nm
+    std::vector<Cluster> clusters_;
 
     RingDensity density(const CurvePoint& p, const BasisRow& radial, const BasisRow& axial, const BasisRow& force,
                         double weight) const;
+    Cluster cluster(Index first_element, Index elements) const;
+    void add_element(RingLayers& layers, const Target& target, Index element) const;
     void add_near_element(RingLayers& layers, const Target& target, Index element, double guess) const;
 };
 

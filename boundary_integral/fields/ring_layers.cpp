@@ -6,32 +6,39 @@ namespace endoflow::boundary_integral {
 
 void RingLayers::start(const Target& target) {
     target_ = target;
-    sources_.resize(0);
-    densities_.clear();
+    count_ = 0;
 }
 
-void RingLayers::add(const RingPoint& point, const RingDensity& density) {
-    const double dr = point.r - target_.r;
-    const double dz = point.z - target_.z;
-    sources_.radius.push_back(point.r);
-    sources_.delta_r.push_back(dr);
-    sources_.delta_z.push_back(dz);
-    sources_.normal_r.push_back(point.normal_r);
-    sources_.normal_offset.push_back(point.normal_r * dr + point.normal_z * dz);
-    densities_.push_back(density);
+void RingLayers::add(std::span<const ChargedRing> rings) {
+    if (count_ + rings.size() > sources_.size()) {
+        sources_.resize(2 * (count_ + rings.size()));
+        densities_.resize(sources_.size());
+    }
+    for (const auto& [point, density] : rings) {
+        const double dr = point.r - target_.r;
+        const double dz = point.z - target_.z;
+        sources_.radius[count_] = point.r;
+        sources_.delta_r[count_] = dr;
+        sources_.delta_z[count_] = dz;
+        sources_.normal_r[count_] = point.normal_r;
+        sources_.normal_offset[count_] = point.normal_r * dr + point.normal_z * dz;
+        densities_.force_r[count_] = density.force_r;
+        densities_.force_z[count_] = density.force_z;
+        densities_.momentum_r[count_] = density.momentum_r;
+        densities_.momentum_z[count_] = density.momentum_z;
+        densities_.pressure_r[count_] = density.pressure_r;
+        densities_.pressure_z[count_] = density.pressure_z;
+        ++count_;
+    }
 }
 
 RingLayers::Sum RingLayers::evaluate() {
-    evaluate_ring_kernels(target_.r, sources_, kernels_);
-    evaluate_ring_pressures(target_.r, sources_, pressures_);
+    evaluate_ring_layers(target_.r, count_, sources_, densities_, contributions_);
     Sum sum{};
-    for (std::size_t i = 0; i < densities_.size(); ++i) {
-        const RingDensity& d = densities_[i];
-        sum.momentum_r += kernels_.g_rr[i] * d.force_r + kernels_.g_rz[i] * d.force_z -
-                          kernels_.t_rr[i] * d.momentum_r - kernels_.t_rz[i] * d.momentum_z;
-        sum.momentum_z += kernels_.g_zr[i] * d.force_r + kernels_.g_zz[i] * d.force_z -
-                          kernels_.t_zr[i] * d.momentum_r - kernels_.t_zz[i] * d.momentum_z;
-        sum.pressure -= (pressures_.p_r[i] * d.pressure_r + pressures_.p_z[i] * d.pressure_z);
+    for (std::size_t i = 0; i < count_; ++i) {
+        sum.momentum_r += contributions_.momentum_r[i];
+        sum.momentum_z += contributions_.momentum_z[i];
+        sum.pressure -= contributions_.pressure[i];
     }
     sum.pressure /= 4.0 * std::numbers::pi;  // Phi = - x / rho^3
     return sum;

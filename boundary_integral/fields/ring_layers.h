@@ -10,6 +10,7 @@
 //     4 pi p(x0)    = int q.Phi dA,      q = f + 2 visc [ n div_Gamma u - (du/ds.n) t ]
 // The jump of p across the membrane is q.n = f.n + 2 (nu1 - nu2) div_Gamma u, as (A.17) wants.
 
+#include <span>
 #include <vector>
 
 #include "boundary_integral/kernels/ring_kernels.h"
@@ -28,11 +29,17 @@ struct RingPoint {
     double r, z, normal_r, normal_z;
 };
 
-// The quadrature points of all surfaces as one target sees them.
+struct ChargedRing {
+    RingPoint point;
+    RingDensity density;
+};
+
+// The quadrature points of all surfaces as one target sees them. Serves one target after the other without allocating
+// anew; one object for each thread.
 class RingLayers {
   public:
     void start(const Target& target);
-    void add(const RingPoint& point, const RingDensity& density);
+    void add(std::span<const ChargedRing> rings);
 
     struct Sum {
         double momentum_r, momentum_z;  // 8 pi nu u [pN/nm]
@@ -42,10 +49,10 @@ class RingLayers {
 
   private:
     Target target_;
+    std::size_t count_ = 0;  // of the rings in use; the vectors only grow
     RingSources sources_;
-    std::vector<RingDensity> densities_;
-    RingKernels kernels_;
-    RingPressureKernels pressures_;
+    RingDensities densities_;
+    RingContributions contributions_;
 };
 
 }  // namespace endoflow::boundary_integral

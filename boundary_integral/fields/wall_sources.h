@@ -27,7 +27,7 @@ class WallSources {
     const WallPanels& walls_;
     QuadratureRule near_rule_;
     std::vector<NodeValues> nodes_;
-    std::vector<RingDensity> densities_;  // at the nodes
+    std::vector<ChargedRing> rings_;  // at the nodes
 
     RingDensity density(const WallSegment& segment, const NodeValues& values, double r, double speed,
                         double weight) const;

@@ -59,19 +59,47 @@ void stokeslet_loop(double r0, std::size_t count, const double* __restrict r, co
     }
 }
 
-// x.e_r = r - r0 + 2 r0 sigma and x.e_z = z - z0, with e_r that of the source.
-ENDOFLOW_VECTOR_CLONES
-void pressure_loop(double r0, std::size_t count, const double* __restrict r, const double* __restrict dr,
-                   const double* __restrict dz, double* __restrict p_r, double* __restrict p_z) {
-    for (std::size_t i = 0; i < count; ++i) {
-        const double a = dr[i] * dr[i] + dz[i] * dz[i];
-        const double total = a + 4.0 * r[i] * r0;
-        const EllipticIntegrals elliptic = integrals_by_mean(a / total);
-        const double scale = 4.0 / std::sqrt(total);
-        const double i30 = scale * elliptic.e / a;
-        p_r[i] = dr[i] * i30 + 2.0 * r0 * scale * elliptic.d / total;
-        p_z[i] = dz[i] * i30;
-    }
+struct KernelPoint {
+    double g_rr, g_rz, g_zr, g_zz, t_rr, t_rz, t_zr, t_zz, p_r, p_z;
+};
+
+// One source of radius r at (d, z) from the target, offset n0 = n.x. x.e_r = d + 2 r0 sigma and x.e_z = z, e_r that of
+// the source.
+__attribute__((always_inline)) inline KernelPoint kernels_at(double r0, double r, double d, double z, double nr,
+                                                             double n0) {
+    const double q = 2.0 * r0;
+    const double a = d * d + z * z;
+    const double total = a + 4.0 * r * r0;
+    const double inverse_total = 1.0 / total;
+    const double mc = a * inverse_total;
+    const EllipticIntegrals elliptic = integrals_by_mean(mc);
+    const double scale = 4.0 * std::sqrt(inverse_total);
+    const double i10 = scale * elliptic.k;
+    const double i11 = scale * elliptic.b;
+    const double inverse_a = 1.0 / a;
+    const double i30 = scale * elliptic.e * inverse_a;
+    const double i31 = scale * elliptic.d * inverse_total;
+    const double b_i32 = i11 - a * i31;  // b * i32
+    KernelPoint kernels{};
+    kernels.g_rr = i10 - 2.0 * i11 + d * d * (i30 - 2.0 * i31) - b_i32;
+    kernels.g_rz = z * (d * i30 - 2.0 * r * i31);
+    kernels.g_zr = z * (d * i30 + q * i31);
+    kernels.g_zz = i10 + z * z * i30;
+
+    const double third = scale * (1.0 / 3.0) * inverse_a;
+    const double i50 = third * inverse_a * (2.0 * (1.0 + mc) * elliptic.e - mc * elliptic.k);
+    const double i51 = third * inverse_total * (2.0 * elliptic.e - elliptic.b);
+    const double b_i52 = i31 - a * i51;                      // b * i52
+    const double q_b_i53 = (b_i32 - a * b_i52) / (2.0 * r);  // 2 r0 b * i53
+    const double n1 = q * nr;                                // x.n = n0 + n1 sigma
+    const double t_common = z * (d * (n0 * i50 + n1 * i51));
+    kernels.t_zz = -6.0 * z * z * (n0 * i50 + n1 * i51);
+    kernels.t_zr = -6.0 * (t_common + z * (q * n0 * i51 + nr * (r0 / r) * b_i52));
+    kernels.t_rz = -6.0 * (t_common - z * (2.0 * r * n0 * i51 + nr * b_i52));
+    kernels.t_rr = -6.0 * (d * d * (n0 * i50 + (n1 - 2.0 * n0) * i51 - nr * b_i52 / r) - n0 * b_i52 - nr * q_b_i53);
+    kernels.p_r = d * i30 + q * i31;
+    kernels.p_z = z * i30;
+    return kernels;
 }
 
 ENDOFLOW_VECTOR_CLONES
@@ -79,40 +107,31 @@ void full_loop(double r0, std::size_t count, const double* __restrict r, const d
                const double* __restrict dz, const double* __restrict nr, const double* __restrict offset,
                double* __restrict g_rr, double* __restrict g_rz, double* __restrict g_zr, double* __restrict g_zz,
                double* __restrict t_rr, double* __restrict t_rz, double* __restrict t_zr, double* __restrict t_zz) {
-    const double q = 2.0 * r0;
     for (std::size_t i = 0; i < count; ++i) {
-        const double d = dr[i];
-        const double z = dz[i];
-        const double a = d * d + z * z;
-        const double total = a + 4.0 * r[i] * r0;
-        const double inverse_total = 1.0 / total;
-        const double mc = a * inverse_total;
-        const EllipticIntegrals elliptic = integrals_by_mean(mc);
-        const double scale = 4.0 * std::sqrt(inverse_total);
-        const double i10 = scale * elliptic.k;
-        const double i11 = scale * elliptic.b;
-        const double inverse_a = 1.0 / a;
-        const double i30 = scale * elliptic.e * inverse_a;
-        const double i31 = scale * elliptic.d * inverse_total;
-        const double b_i32 = i11 - a * i31;  // b * i32
-        g_rr[i] = i10 - 2.0 * i11 + d * d * (i30 - 2.0 * i31) - b_i32;
-        g_rz[i] = z * (d * i30 - 2.0 * r[i] * i31);
-        g_zr[i] = z * (d * i30 + q * i31);
-        g_zz[i] = i10 + z * z * i30;
+        const KernelPoint k = kernels_at(r0, r[i], dr[i], dz[i], nr[i], offset[i]);
+        g_rr[i] = k.g_rr;
+        g_rz[i] = k.g_rz;
+        g_zr[i] = k.g_zr;
+        g_zz[i] = k.g_zz;
+        t_rr[i] = k.t_rr;
+        t_rz[i] = k.t_rz;
+        t_zr[i] = k.t_zr;
+        t_zz[i] = k.t_zz;
+    }
+}
 
-        const double third = scale * (1.0 / 3.0) * inverse_a;
-        const double i50 = third * inverse_a * (2.0 * (1.0 + mc) * elliptic.e - mc * elliptic.k);
-        const double i51 = third * inverse_total * (2.0 * elliptic.e - elliptic.b);
-        const double b_i52 = i31 - a * i51;                         // b * i52
-        const double q_b_i53 = (b_i32 - a * b_i52) / (2.0 * r[i]);  // 2 r0 b * i53
-        const double n0 = offset[i];
-        const double n1 = q * nr[i];  // x.n = n0 + n1 sigma
-        const double t_common = z * (d * (n0 * i50 + n1 * i51));
-        t_zz[i] = -6.0 * z * z * (n0 * i50 + n1 * i51);
-        t_zr[i] = -6.0 * (t_common + z * (q * n0 * i51 + nr[i] * (r0 / r[i]) * b_i52));
-        t_rz[i] = -6.0 * (t_common - z * (2.0 * r[i] * n0 * i51 + nr[i] * b_i52));
-        t_rr[i] =
-            -6.0 * (d * d * (n0 * i50 + (n1 - 2.0 * n0) * i51 - nr[i] * b_i52 / r[i]) - n0 * b_i52 - nr[i] * q_b_i53);
+// What a source of the given densities adds to 8 pi nu u and to the pressure: one value each.
+ENDOFLOW_VECTOR_CLONES
+void layer_loop(double r0, std::size_t count, const double* __restrict r, const double* __restrict dr,
+                const double* __restrict dz, const double* __restrict nr, const double* __restrict offset,
+                const double* __restrict f_r, const double* __restrict f_z, const double* __restrict u_r,
+                const double* __restrict u_z, const double* __restrict q_r, const double* __restrict q_z,
+                double* __restrict sum_r, double* __restrict sum_z, double* __restrict sum_p) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const KernelPoint k = kernels_at(r0, r[i], dr[i], dz[i], nr[i], offset[i]);
+        sum_r[i] = k.g_rr * f_r[i] + k.g_rz * f_z[i] - k.t_rr * u_r[i] - k.t_rz * u_z[i];
+        sum_z[i] = k.g_zr * f_r[i] + k.g_zz * f_z[i] - k.t_zr * u_r[i] - k.t_zz * u_z[i];
+        sum_p[i] = k.p_r * q_r[i] + k.p_z * q_z[i];
     }
 }
 
@@ -134,11 +153,19 @@ EllipticIntegrals elliptic_integrals(double complementary_parameter) {
     return integrals_by_mean(complementary_parameter);
 }
 
-void evaluate_ring_pressures(double target_radius, const RingSources& sources, RingPressureKernels& kernels) {
-    kernels.p_r.resize(sources.size());
-    kernels.p_z.resize(sources.size());
-    pressure_loop(target_radius, sources.size(), sources.radius.data(), sources.delta_r.data(), sources.delta_z.data(),
-                  kernels.p_r.data(), kernels.p_z.data());
+void RingDensities::resize(std::size_t count) {
+    for (auto* values : {&force_r, &force_z, &momentum_r, &momentum_z, &pressure_r, &pressure_z}) values->resize(count);
+}
+
+void evaluate_ring_layers(double target_radius, std::size_t count, const RingSources& sources,
+                          const RingDensities& densities, RingContributions& contributions) {
+    for (auto* values : {&contributions.momentum_r, &contributions.momentum_z, &contributions.pressure})
+        values->resize(sources.size());
+    layer_loop(target_radius, count, sources.radius.data(), sources.delta_r.data(), sources.delta_z.data(),
+               sources.normal_r.data(), sources.normal_offset.data(), densities.force_r.data(),
+               densities.force_z.data(), densities.momentum_r.data(), densities.momentum_z.data(),
+               densities.pressure_r.data(), densities.pressure_z.data(), contributions.momentum_r.data(),
+               contributions.momentum_z.data(), contributions.pressure.data());
 }
 
 void evaluate_ring_stokeslets(double target_radius, const RingSources& sources, RingKernels& kernels) {

@@ -46,12 +46,24 @@ EllipticIntegrals elliptic_integrals(double complementary_parameter);
 // All eight kernels for one target radius r0 >= 0 (the axis r0 = 0 needs no special case).
 void evaluate_ring_kernels(double target_radius, const RingSources& sources, RingKernels& kernels);
 
-// The kernel of the pressure, int x / rho^3 dphi, in the source's frame: p(x0) = - 1/(4 pi) int (p_r q_r + p_z q_z) dA
-// for a single layer of density q. The surface measure r ds is NOT included.
-struct RingPressureKernels {
-    std::vector<double> p_r, p_z;  // [1/nm^2]
+/// Densities of layers at the sources, times the measure r ds: f of the single layer, u of the double layer, q of the
+/// pressure's kernel x / rho^3 (source's frame).
+struct RingDensities {
+    std::vector<double> force_r, force_z;        // pN
+    std::vector<double> momentum_r, momentum_z;  // pN nm
+    std::vector<double> pressure_r, pressure_z;  // pN
+
+    void resize(std::size_t count);
 };
-void evaluate_ring_pressures(double target_radius, const RingSources& sources, RingPressureKernels& kernels);
+
+/// What each source adds: G f - (T.n) u by component [pN/nm], and int x.q / rho^3 dphi [pN/nm^2].
+struct RingContributions {
+    std::vector<double> momentum_r, momentum_z, pressure;
+};
+
+/// Velocity and pressure of the first `count` sources from one evaluation of the elliptic integrals.
+void evaluate_ring_layers(double target_radius, std::size_t count, const RingSources& sources,
+                          const RingDensities& densities, RingContributions& contributions);
 
 // The four single-layer kernels alone.
 void evaluate_ring_stokeslets(double target_radius, const RingSources& sources, RingKernels& kernels);

@@ -5,6 +5,13 @@
 
 namespace endoflow::boundary_integral {
 
+namespace {
+
+// In lengths of an element: from here on the closest Gauss point serves as the closest point.
+constexpr double far = 2.0;
+
+}  // namespace
+
 double squared_distance(const CurvePoint& p, const Target& target) {
     const double dr = p.r - target.r;
     const double dz = p.z - target.z;
@@ -40,6 +47,9 @@ ClosestPoint closest_on_membrane(const MembraneSpace& space, const MembraneState
         nearest = i;
     }
     const Index own = static_cast<Index>(nearest) / space.points_per_element();
+    // Gauss points of neighbours are nearer to each other than an element is long.
+    const double length = samples.curve[nearest].g * space.element_width();
+    if (smallest > far * far * length * length) return {space.xi[nearest], samples.curve[nearest]};
     ClosestPoint best = closest_on_element(space, state, own, target, space.xi[nearest]);
     // Between the last Gauss points of two elements either may hold it.
     for (const Index element : {own - 1, own + 1}) {

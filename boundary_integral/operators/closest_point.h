@@ -18,7 +18,8 @@ struct ClosestPoint {
 ClosestPoint closest_on_element(const MembraneSpace& space, const MembraneState& state, Index element,
                                 const Target& target, double guess);
 
-// Closest point of the whole membrane; the Gauss points tell the element.
+// Closest point of the whole membrane; the Gauss points tell the element. Of a target more than two lengths of an
+// element away, the closest Gauss point: it tells the side.
 ClosestPoint closest_on_membrane(const MembraneSpace& space, const MembraneState& state, const MembraneSamples& samples,
                                  const Target& target);
 
