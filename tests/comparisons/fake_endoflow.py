@@ -2,7 +2,8 @@
 """Stands in for the program `endoflow`: `check` and `run` as the real ones, with a membrane known in closed form.
 
 Settings steer it: a patch radius of 13 or an ε of 0.7 makes `run` fail as a solver does, geometric dynamics are refused by
-the boundary-integral engine, the case.name "slow" makes it run until a signal and end with a checkpoint. A patch radius
+the boundary-integral engine, the case.name "slow" makes it run until SIGINT or SIGTERM and end with a checkpoint, so does a patch radius that
+stands in the file `slow` in the working directory. A patch radius of 17 fails in the midst of the run, whose record says so. A patch radius
 above 1000 and unknown keys are refused. Every run appends a
 line to runs.log in the working directory, where defaults.json holds the parameters.
 """
@@ -83,25 +84,31 @@ def run(engine, case, settings, output, restart):
     end = parameters["time"]["end"]
     offset = 0.2 * epsilon**2 if engine == "phase-field" else 0.0
     times = [0.25 * end * i for i in range(5)]
-    slow = name == "slow" and not restart
-    signal.signal(signal.SIGINT, lambda *_: None)
+    named = Path("slow").exists() and float(Path("slow").read_text()) == patch_radius
+    slow = (name == "slow" and not restart) or named
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: None)
     synthetic.write_run(output, engine, lambda t: synthetic.budding_membrane(t, 1.0, offset), times, 400, parameters)
     (output / "checkpoint").mkdir(exist_ok=True)
     (output / "checkpoint" / "state.h5").write_text("")
+    if patch_radius == 17:
+        note(output, "failed", "step-underflow")
+        fail("step-underflow: the step became too small; lower time.tolerance", 3)
     if slow:
         note(output, "running")
-        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        stopping = {signal.SIGINT, signal.SIGTERM}
+        signal.pthread_sigmask(signal.SIG_BLOCK, stopping)
         (output / "ready").write_text("")
-        signal.sigtimedwait({signal.SIGINT}, 120)
+        caught = signal.sigtimedwait(stopping, 600)
         time.sleep(0.2)
         note(output, "interrupted")
-        sys.exit(130)
+        sys.exit(128 + (caught.si_signo if caught else signal.SIGINT))
 
 
-def note(output, state):
+def note(output, state, reason=None):
     """Change the state in run.json."""
     record = json.loads((output / "run.json").read_text())
-    (output / "run.json").write_text(json.dumps({**record, "state": state, "exit_reason": state}))
+    (output / "run.json").write_text(json.dumps({**record, "state": state, "exit_reason": reason or state}, indent=2))
 
 
 def main():

@@ -1,0 +1,187 @@
+"""A sweep's array on a real Slurm: munged, slurmctld and slurmd of Debian (slurm-wlm, munge), started by the test for itself.
+
+Left out where these programs are missing, or without root, whom slurmd needs.
+"""
+
+import os
+import shutil
+import socket
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from studies import BOUNDARY_INTEGRAL, SweepTest
+
+NEEDED = ("munged", "slurmctld", "slurmd", "sbatch", "squeue")
+PATHS = "/usr/sbin:/sbin:" + os.environ.get("PATH", "")
+MISSING = [name for name in NEEDED if shutil.which(name, path=PATHS) is None]
+
+#: Most seconds for the cluster to be ready, and for an array to end: the time limit of a minute is in it, and Slurm's own periods.
+READY, ENDED = 120, 900
+
+CONFIGURATION = """
+ClusterName=endoflow
+SlurmctldHost={host}(127.0.0.1)
+AuthType=auth/munge
+AuthInfo=socket={directory}/munge.socket
+CredType=cred/munge
+CryptoType=crypto/munge
+SlurmUser=root
+SlurmdUser=root
+SlurmctldPort={controller}
+SlurmdPort={daemon}
+StateSaveLocation={directory}/state
+SlurmdSpoolDir={directory}/spool
+SlurmctldPidFile={directory}/slurmctld.pid
+SlurmdPidFile={directory}/slurmd.pid
+SlurmctldLogFile={directory}/slurmctld.log
+SlurmdLogFile={directory}/slurmd.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+MpiDefault=none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core
+SchedulerType=sched/backfill
+ReturnToService=2
+KillWait=30
+InactiveLimit=0
+NodeName={host} NodeAddr=127.0.0.1 CPUs={cores} State=UNKNOWN
+PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
+"""
+
+
+def free_port():
+    """A TCP port that nothing listens at."""
+    with socket.socket() as own:
+        own.bind(("127.0.0.1", 0))
+        return own.getsockname()[1]
+
+
+class Cluster:
+    """One node that is this machine, in a directory (Path) of its own."""
+
+    def __init__(self, directory):
+        self.directory, self.processes = directory, []
+        self.environment = {**os.environ, "PATH": PATHS, "SLURM_CONF": str(directory / "slurm.conf")}
+
+    def start(self):
+        """Start munged, the controller and the node; raises RuntimeError when they do not become ready."""
+        for name in ("state", "spool", "munge"):
+            (self.directory / name).mkdir(mode=0o700)
+        key = self.directory / "munge" / "key"
+        key.write_bytes(os.urandom(1024))
+        key.chmod(0o600)
+        cores = min(2, os.cpu_count())
+        (self.directory / "slurm.conf").write_text(
+            CONFIGURATION.format(
+                host=socket.gethostname().split(".")[0],
+                directory=self.directory,
+                controller=free_port(),
+                daemon=free_port(),
+                cores=cores,
+            )
+        )
+        inside = self.directory / "munge"
+        names = ("socket", "pid-file", "log-file", "seed-file")
+        places = [f"--{name}={inside / name}" for name in names if name != "socket"]
+        self._run("munged", "--foreground", "--force", f"--socket={self.directory}/munge.socket", f"--key-file={key}", *places)
+        self._until("munged listens", lambda: (self.directory / "munge.socket").exists())
+        self._run("slurmctld", "-D")
+        self._run("slurmd", "-D")
+        self._until("the node is idle", lambda: "idle" in self.ask("sinfo", "-h", "-o", "%T"))
+
+    def ask(self, *command):
+        """What a command of Slurm prints."""
+        return subprocess.run(command, env=self.environment, capture_output=True, text=True, timeout=60).stdout
+
+    def wait(self):
+        """Until no job is left."""
+        self._until("the queue is empty", lambda: not self.ask("squeue", "-h").strip(), ENDED)
+
+    def stop(self):
+        """End all that was started, last first."""
+        for process in reversed(self.processes):
+            process.terminate()
+            try:
+                process.wait(20)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+
+    def _run(self, *command):
+        log = open(self.directory / f"{command[0]}.out", "w", encoding="utf-8")
+        with log:
+            self.processes.append(subprocess.Popen(command, env=self.environment, stdout=log, stderr=log))
+
+    def _until(self, what, true, seconds=READY):
+        end = time.monotonic() + seconds
+        while not true():
+            if time.monotonic() > end or any(process.poll() is not None for process in self.processes):
+                logs = "".join(path.read_text(errors="replace")[-1500:] for path in self.directory.glob("*.log"))
+                logs += "".join(path.read_text(errors="replace")[-1500:] for path in self.directory.glob("*.out"))
+                raise RuntimeError(f"Slurm: {what}: not within {seconds} s\n{logs}")
+            time.sleep(0.5)
+
+
+@unittest.skipIf(MISSING, f"Slurm is not installed ({', '.join(MISSING)}; Debian packages slurm-wlm and munge)")
+@unittest.skipIf(os.geteuid() != 0, "slurmd needs root")
+class OnSlurm(SweepTest):
+    #: Twelve members: a radius of 17 fails, one of 22 does not end before its time limit while the file `slow` is there.
+    ARRAY = ("--vary", "molecules.patch_radius=17,18,19,20,21,22,23,24,25,26,27,28", *BOUNDARY_INTEGRAL)
+
+    def setUp(self):
+        super().setUp()
+        # A socket's path has at most 107 letters.
+        holder = tempfile.TemporaryDirectory(prefix="slurm", dir="/tmp")
+        self.addCleanup(holder.cleanup)
+        self.cluster = Cluster(Path(holder.name))
+        self.addCleanup(self.cluster.stop)
+        self.cluster.start()
+
+    def submit(self, *options):
+        """sbatch the sweep's script; returns when the queue is empty."""
+        process = subprocess.run(
+            ["sbatch", "--parsable", *options, "out/case/sweep/sweep.sbatch"],
+            cwd=self.scratch,
+            env={**self.cluster.environment, "ENDOFLOW_PROGRAM": str(self.program)},
+            capture_output=True,
+            text=True,
+        )
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        self.cluster.wait()
+
+    def states(self, directory="out/case/sweep"):
+        return {row["molecules.patch_radius"]: row["state"] for row in self.rows(directory)}
+
+    def test_failure_time_limit_and_second_submission(self):
+        (self.scratch / "slow").write_text("22")
+        process = self.sweep(*self.ARRAY, "--slurm")
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        self.assertIn("12 of 12 runs left", process.stdout)
+        self.submit("--time=1")
+        self.sweep(*self.ARRAY, "--collect")
+        wanted = {str(radius): "finished" for radius in range(18, 29)} | {"17": "failed", "22": "interrupted"}
+        self.assertEqual(self.states(), wanted)
+        self.assertEqual(len(self.runs()), 12)
+
+        (self.scratch / "slow").unlink()
+        self.submit("--time=1")
+        again = self.runs()
+        self.assertEqual(
+            again,
+            ["out/case/sweep/patch_radius=17/boundary-integral fresh", "out/case/sweep/patch_radius=22/boundary-integral restart"],
+        )
+        self.sweep(*self.ARRAY, "--collect")
+        self.assertEqual(self.states(), wanted | {"22": "finished"})
+
+        self.assertEqual(self.sweep(*self.ARRAY, "-o", "plain").returncode, 3)
+        tables = [self.rows(), self.rows("plain")]
+        for row in (row for table in tables for row in table):
+            row["directory"] = Path(row["directory"]).parent.name
+        self.assertEqual(*tables)
+
+
+if __name__ == "__main__":
+    unittest.main()
