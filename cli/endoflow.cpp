@@ -24,11 +24,13 @@ namespace endoflow::cli {
 namespace {
 
 const std::vector<std::string> engines{"boundary-integral", "phase-field"};
-const std::vector<std::string> commands{"run",    "compare", "converge", "sweep",   "reproduce", "movie", "revolve",
-                                        "report", "modes",   "laws",     "statics", "params",    "check", "summary"};
+const std::vector<std::string> commands{"run",     "compare", "converge", "sweep",   "reproduce",
+                                        "movie",   "revolve", "report",   "modes",   "laws",
+                                        "statics", "params",  "check",    "summary", "infer"};
 
 /// Commands that are Python: modules in comparisons/commands/.
-const std::vector<std::string> scripts{"compare", "converge", "sweep", "reproduce", "movie", "revolve", "report"};
+const std::vector<std::string> scripts{"compare", "converge", "sweep",  "reproduce",
+                                       "movie",   "revolve",  "report", "infer"};
 
 constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, computed by two independent engines
 
@@ -38,6 +40,7 @@ constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, comp
   endoflow converge CASE.toml --epsilon E1,E2,...          phase field against sharp membrane as the layer gets thin
   endoflow sweep CASE.toml --vary KEY=FIRST:LAST:STEP --engine ENGINE [-o DIR] [--jobs N]      many runs of one case
   endoflow reproduce ITEM [--quick|--full] [-o DIR] [--jobs N]     the paper: table2, fig3 ... fig7, figA2 or all
+  endoflow infer STUDY.toml [-o DIR] [--calibrate N] [--sensitivity]       parameters from measured or simulated data
   endoflow report DIR [-o DIR]                             a page of one run: plots, numbers, alarms, provenance
   endoflow movie DIR [-o FILE.mp4|FILE.gif]                a run as a film (needs ffmpeg)
   endoflow revolve DIR [--angle DEGREES]                   a run's membrane as surfaces in space, for ParaView

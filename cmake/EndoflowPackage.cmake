@@ -13,7 +13,7 @@ set(CPACK_PACKAGE_CONTACT "endoflow maintainers")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy, python3-scipy, python3-h5py, python3-matplotlib")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy, python3-scipy, python3-h5py, python3-matplotlib, python3-emcee")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg")
 if(ENDOFLOW_PHASEFIELD)
   # MPI starts a helper program of this package even for a single process.

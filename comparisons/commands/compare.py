@@ -4,16 +4,17 @@ Exit codes: 0 done; 2 bad command line, or runs with no interval of time in comm
 cannot be written; 130 interrupted.
 """
 
-import argparse
 import sys
 from pathlib import Path
 
 from comparisons.files import write_json, write_text
 
+from .options import Parser
+
 
 def parsed(arguments):
     """The command line as a namespace: a, b, output (Path)."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="endoflow compare", description="Compare two finished runs.", allow_abbrev=False
     )
     parser.add_argument("a", metavar="DIR_A", type=Path, help="directory of the first run (drawn on the left)")

@@ -54,7 +54,7 @@ def guarded(command, body):
     except KeyboardInterrupt:
         return INTERRUPTED
     except ImportError as error:
-        return complain(f"{error}; install python3-numpy python3-scipy python3-h5py python3-matplotlib", IO_FAILURE)
+        return complain(f"{error}; install python3-numpy python3-scipy python3-h5py python3-matplotlib python3-emcee", IO_FAILURE)
     except OSError as error:
         return complain(f"{error.filename or 'standard output'}: {error.strerror}; {remedy(error)}", IO_FAILURE)
     except Exception as error:  # a user never meets a stack trace; what is wrong here is ours

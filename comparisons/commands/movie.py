@@ -3,19 +3,18 @@
 Exit codes: 0 done; 2 bad command line; 4 the run cannot be read, ffmpeg is missing or fails; 130 interrupted.
 """
 
-import argparse
 from pathlib import Path
 
 from comparisons.errors import BAD_INPUT, StudyError
 
-from .options import positive_integer
+from .options import Parser, positive_integer
 
 FORMATS = (".mp4", ".gif")
 
 
 def parsed(arguments):
     """The command line as a namespace."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="endoflow movie", description="Make a film of a run (needs ffmpeg).", allow_abbrev=False
     )
     parser.add_argument("directory", metavar="DIR", type=Path, help="directory of a run")

@@ -1,7 +1,34 @@
 """Options that several commands share."""
 
 import argparse
+import json
+import sys
 from pathlib import Path
+
+
+class Parser(argparse.ArgumentParser):
+    """A command's parser; `--describe` alone prints its options as JSON, as the other commands do."""
+
+    def parse_args(self, args=None, namespace=None):
+        if args is not None and list(args) == ["--describe"]:
+            print(json.dumps(self.described()))
+            sys.exit(0)
+        return super().parse_args(args, namespace)
+
+    def described(self):
+        """{command, description, options: [{names, value, required, help, choices}]}; manual page and completions come from it."""
+        options = [self._option(action) for action in self._actions]
+        return {"command": self.prog, "description": self.description, "options": options}
+
+    def _option(self, action):
+        value = "" if action.nargs == 0 else action.metavar or action.dest.upper()
+        return {
+            "names": [*action.option_strings],
+            "value": value,
+            "required": bool(action.required),
+            "help": self._get_formatter()._expand_help(action) if action.help else "",
+            "choices": [str(choice) for choice in action.choices or ()],
+        }
 
 
 def positive_integer(text):
@@ -13,7 +40,7 @@ def positive_integer(text):
 
 def study_parser(study, description, output):
     """Parser of `endoflow STUDY` with the options every study has; output: what -o defaults to, for the help."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog=f"endoflow {study}",
         description=description,
         allow_abbrev=False,

@@ -4,15 +4,16 @@ Writes report.html and its plots. Exit codes: 0 done; 2 bad command line; 4 the 
 written; 130 interrupted.
 """
 
-import argparse
 from pathlib import Path
 
 from comparisons.files import write_text
 
+from .options import Parser
+
 
 def parsed(arguments):
     """The command line as a namespace."""
-    parser = argparse.ArgumentParser(prog="endoflow report", description="Make a page of one run.", allow_abbrev=False)
+    parser = Parser(prog="endoflow report", description="Make a page of one run.", allow_abbrev=False)
     parser.add_argument("directory", metavar="DIR", type=Path, help="directory of a run")
     parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="where to write (default: DIR/report)")
     return parser.parse_args(arguments)

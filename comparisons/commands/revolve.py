@@ -4,14 +4,13 @@ Writes DIR/membrane.pvd and DIR/membrane/*.vtp, coloured by c, tension, curvatur
 command line; 4 the run cannot be read or the files cannot be written; 130 interrupted.
 """
 
-import argparse
 from pathlib import Path
 
 import numpy as np
 
 from comparisons.files import write_text
 
-from .options import positive_integer
+from .options import Parser, positive_integer
 
 #: Distance of points along the membrane (nm), and angle (degrees) between two meridians.
 SPACING, ANGLE_STEP = 0.8, 5.0
@@ -19,7 +18,7 @@ SPACING, ANGLE_STEP = 0.8, 5.0
 
 def parsed(arguments):
     """The command line as a namespace."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="endoflow revolve", description="Revolve a run's membrane for ParaView.", allow_abbrev=False
     )
     parser.add_argument("directory", metavar="DIR", type=Path, help="directory of a run")

@@ -36,6 +36,17 @@ def distance_to_polyline(points, vertices):
 
     Searches the segments next to the nearest vertices, which is exact when the vertices are dense and evenly spaced.
     """
+    return np.abs(_signed(points, vertices))
+
+
+def signed_distances(r, z, curve_r, curve_z):
+    """Distances (m,) in nm of points r, z (m,) from a curve (n,); positive on the left when it is followed axis to rim."""
+    vertices = np.column_stack(resample(curve_r, curve_z, SPACING))
+    return _signed(np.column_stack((r, z)), vertices)
+
+
+def _signed(points, vertices):
+    """distance_to_polyline with the sign of the side: positive on the left of the vertices' order."""
     neighbours = min(NEIGHBOURS, len(vertices))
     _, nearest = cKDTree(vertices).query(points, k=neighbours)
     nearest = nearest.reshape(len(points), neighbours)
@@ -44,7 +55,12 @@ def distance_to_polyline(points, vertices):
     start, along = vertices[segment], vertices[segment + 1] - vertices[segment]
     offset = points[:, None, :] - start
     foot = np.clip(np.sum(offset * along, axis=2) / np.sum(along**2, axis=2), 0.0, 1.0)
-    return np.sqrt(np.min(np.sum((offset - foot[..., None] * along) ** 2, axis=2), axis=1))
+    squares = np.sum((offset - foot[..., None] * along) ** 2, axis=2)
+    best = np.argmin(squares, axis=1)
+    rows = np.arange(len(points))
+    along, offset = along[rows, best], offset[rows, best]
+    left = along[:, 0] * offset[:, 1] - along[:, 1] * offset[:, 0] >= 0
+    return np.where(left, 1.0, -1.0) * np.sqrt(squares[rows, best])
 
 
 def _average_along(values):

@@ -1,0 +1,81 @@
+"""Does the machinery tell the truth? Ranks of true values among posterior samples, and how often regions hold them.
+
+Simulation-based calibration (Talts et al., arXiv:1804.06788): true values are drawn from the priors, data from a run with
+them and from the errors; then the ranks of true values among independent samples of the posterior are uniform, and a region
+of 90 % holds the truth in 90 % of the cases. The runs that make the data are not those that the emulator is made from.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import binom, chisquare
+
+from comparisons.inference.batch import batch_of
+from comparisons.inference.best_fit import prior_precision
+from comparisons.inference.sampling import Density, ensemble, highest_density_level
+from comparisons.inference.training import slopes
+
+#: Samples among which a true value is ranked, and groups of ranks.
+SAMPLES, GROUPS = 99, 10
+
+#: Regions whose coverage is counted.
+LEVELS = (0.5, 0.9)
+
+#: Walkers and steps of a case: many walkers and few steps cost least. The first half of the steps is left out.
+WALKERS, STEPS = 100, 400
+
+
+@dataclass(frozen=True)
+class Case:
+    """truth (unknowns,) in x, ranks (unknowns,) 0 … SAMPLES, held: whether the region of each level holds the truth."""
+
+    truth: np.ndarray
+    ranks: np.ndarray
+    held: tuple
+
+
+def truths(problem, count, seed):
+    """Coordinates (count, unknowns) drawn from the priors."""
+    fractions = np.random.default_rng(seed).random((count, len(problem.unknowns)))
+    return np.column_stack([prior.from_fraction(fractions[:, i]) for i, prior in enumerate(problem.priors)])
+
+
+def calibrate(problem, trained, truth, course, seed):
+    """The Case of a truth (unknowns,) whose run is `course`; None when that run failed or ended unlike those of the emulator."""
+    if course is None or course.outcome != trained.outputs.outcome:
+        return None
+    noise = np.random.default_rng(seed).standard_normal(len(problem.data)) * problem.errors
+    exact = problem.predictions(batch_of([course]), truth[None, :])[0]
+    density = Density(problem, trained, exact + noise)
+    jacobian = slopes(problem, trained, truth)
+    covariance = np.linalg.inv(jacobian.T @ jacobian + prior_precision(problem))
+    sampler, state = ensemble(density, truth, covariance, seed, WALKERS)
+    sampler.run_mcmc(state, STEPS, skip_initial_state_check=True)
+    x, levels = sampler.get_chain(discard=STEPS // 2, flat=True), sampler.get_log_prob(discard=STEPS // 2, flat=True)
+    chosen = np.linspace(0, len(x) - 1, SAMPLES).astype(int)
+    own = float(density(truth[None, :])[0])
+    return Case(
+        truth,
+        np.sum(x[chosen] < truth, axis=0),
+        tuple(own >= highest_density_level(levels, level) for level in LEVELS),
+    )
+
+
+def summary(problem, cases):
+    """What the Cases say, as a dict for JSON: coverage with the 95 % interval that chance allows, ranks in groups, p-values."""
+    count = len(cases)
+    coverage = []
+    for number, level in enumerate(LEVELS):
+        low, high = binom.ppf((0.025, 0.975), count, level) / count
+        held = float(np.mean([case.held[number] for case in cases]))
+        coverage.append({"level": level, "held": held, "by_chance_low": float(low), "by_chance_high": float(high)})
+    ranks = np.array([case.ranks for case in cases])
+    groups = [np.histogram(column, bins=GROUPS, range=(0, SAMPLES + 1))[0] for column in ranks.T]
+    return {
+        "cases": count,
+        "coverage": coverage,
+        "ranks": [
+            {"unknown": name, "groups": group.tolist(), "p_value": float(chisquare(group).pvalue)}
+            for name, group in zip(problem.names, groups)
+        ],
+    }

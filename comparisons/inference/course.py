@@ -1,0 +1,98 @@
+"""A run's course in stages, so that runs of different speed are alike: numbers that depend smoothly on parameters.
+
+The first stage leads from the start to the moment a neck forms, the second from there to the end: budding, or the last
+time asked for. Within a stage quantities stand at fixed fractions of its duration.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from comparisons.inference.observations import WITH_NECK
+from comparisons.measures.distances import signed_distances
+
+#: Points of a stage, close together at its start, where curves bend most.
+STAGE_POINTS = 61
+FIRST_GRID = np.linspace(0, 1, STAGE_POINTS) ** 3
+SECOND_GRID = np.linspace(0, 1, STAGE_POINTS) ** 2
+
+#: How a run ended.
+NO_NECK, NECK, BUDDED = "no neck", "neck", "budded"
+
+#: Rows after a neck's appearance from which its moment is extrapolated.
+ONSET_ROWS = 3
+
+
+@dataclass(frozen=True)
+class Course:
+    """outcome; neck_time and end (µs), neck_time = end without a neck; first, second: {column: (STAGE_POINTS,)} of a stage."""
+
+    outcome: str
+    neck_time: float
+    end: float
+    first: dict
+    second: dict
+
+
+def course_of(run, columns, contours=()):
+    """The Course of an endoflow.Run with some columns of its history and the distances of contours' points."""
+    history = run.history
+    time, budding = history["time_us"], run.event_time("budding")
+    end = float(time[-1]) if budding is None else budding
+    onset = neck_onset(time, history["neck_radius_nm"], history["bud_diameter_nm"])
+    outcome = NO_NECK if onset is None else NECK if budding is None else BUDDED
+    neck_time = end if onset is None else onset[0]
+    first_times = neck_time * FIRST_GRID
+    second_times = neck_time + (end - neck_time) * SECOND_GRID
+    first, second = {}, {}
+    for column in columns:
+        known = np.isfinite(history[column])
+        if column in WITH_NECK:
+            if onset is not None:
+                factor = 1 if column == "neck_radius_nm" else 2
+                known &= time > neck_time
+                curve = PchipInterpolator(
+                    np.append(neck_time, time[known]), np.append(factor * onset[1], history[column][known])
+                )
+                second[column] = curve(second_times)
+            continue
+        curve = PchipInterpolator(time[known], history[column][known], extrapolate=True)
+        first[column] = curve(first_times)
+        if onset is not None:
+            second[column] = curve(second_times)
+    for outline in contours:
+        times, distances = contour_distances(run, outline)
+        for name, values in zip(outline.columns, distances):
+            first[name] = np.interp(first_times, times, values)
+            if onset is not None:
+                second[name] = np.interp(second_times, times, values)
+    return Course(outcome, neck_time, end, first, second)
+
+
+def neck_onset(time, neck, diameter):
+    """(time in µs, radius in nm) at which a neck forms, None when none does.
+
+    Neck and widest place are born together where the tangent first is upright, and what lies between them grows like
+    (t − t₀)^{3/2}: a cubic with a fold. Its power 2/3 is extrapolated to zero, and the mean of both radii linearly. A run
+    that starts with a neck has it at its first row.
+    """
+    rows = np.nonzero(np.isfinite(neck))[0]
+    if not rows.size:
+        return None
+    start = rows[0]
+    if start == 0 or rows.size < ONSET_ROWS:
+        return float(time[start]), float(neck[start])
+    used = slice(start, start + ONSET_ROWS)
+    gap = np.maximum(0.5 * diameter[used] - neck[used], 0) ** (2 / 3)
+    mean = 0.5 * (0.5 * diameter[used] + neck[used])
+    slope, offset = np.polyfit(time[used] - time[start], gap, 1)
+    at = time[start] - offset / slope if slope > 0 else time[start]
+    at = float(np.clip(at, time[start - 1], time[start]))
+    return at, float(np.polyval(np.polyfit(time[used] - at, mean, 1), 0.0))
+
+
+def contour_distances(run, outline):
+    """Times (n,) of a run's shapes, and signed distances (points, n) in nm of a contour's points from them."""
+    distances = [signed_distances(outline.r, outline.z, shape.r, shape.z - shape.z[-1]) for shape in run.shapes]
+    return run.shape_times, np.transpose(distances)

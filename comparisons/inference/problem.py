@@ -1,0 +1,131 @@
+"""What is to be inferred: data, unknowns and the arithmetic between the coordinates of unknowns, runs and data.
+
+Coordinates x (n, unknowns) are those of the priors. The first `engine_count` unknowns need a run each time they change; the
+others (a pure slowing down, a shift of time, times of contours) act on a finished course.
+"""
+
+import numpy as np
+
+from comparisons.errors import BAD_INPUT, StudyError
+from comparisons.inference.batch import values_at, within_course
+from comparisons.inference.course import BUDDED
+from comparisons.inference.observations import EVENTS, QUANTITIES
+from comparisons.inference.study_file import MOST_UNKNOWNS, is_exact_time_scale
+from comparisons.measures.metrics import flat_parameters
+
+#: What stands for (prediction − value)/error where the model has no such number.
+MISSING = 30.0
+
+#: Digits of a parameter: a run is found again by them.
+DIGITS = 10
+
+
+class Problem:
+    """A StudyFile with the resolved parameters of its case. Raises StudyError for unknowns the case does not have."""
+
+    def __init__(self, study, parameters):
+        self.study, self.parameters = study, parameters
+        self.base = flat_parameters(parameters)
+        exact = [u for u in study.unknowns if is_exact(u, parameters)]
+        self.unknowns = [*(u for u in study.unknowns if u not in exact), *exact]
+        self.engine_count = len(self.unknowns) - len(exact)
+        if self.engine_count > MOST_UNKNOWNS:
+            raise StudyError(f"{self.engine_count} unknowns need runs; at most {MOST_UNKNOWNS} are possible", BAD_INPUT)
+        self.names = [unknown.name for unknown in self.unknowns]
+        self.priors = [unknown.prior for unknown in self.unknowns]
+        self.limits = np.array([(prior.lowest, prior.highest) for prior in self.priors])
+        self.contours = study.contours
+        self.data = [*study.data, *(datum for contour in study.contours for datum in contour.data)]
+        self.values = np.array([datum.value for datum in self.data])
+        self.errors = np.array([datum.error for datum in self.data])
+        self._groups = {}
+        for index, datum in enumerate(self.data):
+            self._groups.setdefault((datum.column, datum.time_name), []).append(index)
+        self._check()
+
+    def _check(self):
+        for unknown in self.unknowns[: self.engine_count]:
+            for key in (unknown.key, *unknown.scales, *unknown.divides):
+                if key and (isinstance(self.base.get(key), (bool, str)) or key not in self.base):
+                    what = f"{key} is no parameter with a number; see endoflow params"
+                    raise StudyError(f"unknown {unknown.name}: {what}", BAD_INPUT)
+
+    @property
+    def columns(self):
+        """Columns of history.csv that courses need: those with data, and what pages show anyhow."""
+        measured = {datum.column for datum in self.data}
+        shown = ("neck_radius_nm", "bud_diameter_nm", "bud_height_nm")
+        return [name for name in QUANTITIES if name in measured or name in shown]
+
+    def settings(self, point):
+        """{key: text} that a run with engine coordinates (engine_count,) has on top of the study's own."""
+        found = {}
+        for unknown, x in zip(self.unknowns[: self.engine_count], point):
+            value = float(unknown.prior.value(x))
+            if unknown.key:
+                found[unknown.key] = value
+            for keys, factor in ((unknown.scales, value), (unknown.divides, 1 / value)):
+                for key in keys:
+                    found[key] = found.get(key, self.base[key]) * factor
+        return {key: f"{value:.{DIGITS}g}" for key, value in found.items()}
+
+    def display(self, x):
+        """Values (n, unknowns) of coordinates."""
+        return np.column_stack([prior.value(x[:, i]) for i, prior in enumerate(self.priors)])
+
+    def log_prior(self, x):
+        """(n,), but for a constant."""
+        return np.sum([prior.log_density(x[:, i]) for i, prior in enumerate(self.priors)], axis=0)
+
+    def clocks(self, x):
+        """(factor, offset), each (n, 1): the data's time is factor · model's time + offset."""
+        factor, offset = np.ones(len(x)), np.zeros(len(x))
+        for i, unknown in enumerate(self.unknowns[self.engine_count :], start=self.engine_count):
+            value = unknown.prior.value(x[:, i])
+            if unknown.scales:
+                factor = factor * value
+            elif unknown.time_offset:
+                offset = offset + value
+        return factor[:, None], offset[:, None]
+
+    def predictions(self, batch, x):
+        """(n, data) of n courses with coordinates (n, unknowns); nan where the model has no such number."""
+        found = np.empty((len(x), len(self.data)))
+        for _, indices, column, time in self._requests(x):
+            if column in EVENTS.values():
+                factor, offset = self.clocks(x)
+                found[:, indices] = factor * batch.end[:, None] + offset if batch.outcome == BUDDED else np.nan
+            else:
+                found[:, indices] = values_at(batch, column, time)
+        return found
+
+    def covered(self, batch, x):
+        """Whether each datum (n, data) lies within the course, where the model has such a number."""
+        found = np.ones((len(x), len(self.data)), dtype=bool)
+        for _, indices, column, time in self._requests(x):
+            if column in EVENTS.values():
+                found[:, indices] = batch.outcome == BUDDED
+            else:
+                found[:, indices] = within_course(batch, column, time)
+        return found
+
+    def _requests(self, x):
+        """(name of the time, indices of the data, column, model's times (n, k)) for each group of data."""
+        factor, offset = self.clocks(x)
+        for (column, time_name), indices in self._groups.items():
+            if time_name:
+                at = self.names.index(time_name)
+                time = np.repeat(self.priors[at].value(x[:, at])[:, None], len(indices), axis=1)
+            else:
+                time = np.array([[self.data[i].time for i in indices]])
+            yield time_name, indices, column, np.broadcast_to((time - offset) / factor, (len(x), len(indices)))
+
+    def residuals(self, batch, x, errors=None):
+        """(n, data): (prediction − value)/error, MISSING where there is no prediction; errors: (data,), the data's own if None."""
+        scaled = (self.predictions(batch, x) - self.values) / (self.errors if errors is None else errors)
+        return np.where(np.isfinite(scaled), np.clip(scaled, -1e6, 1e6), MISSING)
+
+
+def is_exact(unknown, parameters):
+    """Whether an unknown acts on a finished course."""
+    return not (unknown.key or unknown.scales) or is_exact_time_scale(unknown, parameters)

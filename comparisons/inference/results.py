@@ -1,0 +1,187 @@
+"""infer.json (schema_version 1), posterior.csv and predictive.csv of a study. Values are in the parameters' own units.
+
+infer.json:
+
+    schema_version        1
+    study                 {file, case, engine, seed, version}
+    runs                  {total, failed, alarmed, first_alarm}: of the engine, also those of earlier calls; alarmed ones left
+                          the bounds of an accurate run
+    warnings              [text]
+    unknowns              [{name, unit, best, linear_low, linear_high, median, low, high, prior_low, prior_high, needs_runs}]:
+                          best fit with the 90 % interval of the linearised posterior, posterior median with its 90 % interval
+    covariance            of the unknowns at the best fit, linearised, in the order of `unknowns`; of logarithms where the prior
+                          is logarithmic
+    fit                   {chi_square, degrees_of_freedom, p_value, evaluations, outcome, data, outside}: `outside` data have no
+                          counterpart in the run
+    directions            [{combination, deviation, shrinkage, verdict, vector}], see comparisons/inference/identifiability.py
+    posterior             {samples, effective, autocorrelation, acceptance, converged, budding_time_us: {median, low, high} or null}
+    emulator              {degree, runs, excluded, error, check: {size, worst, unlike, runs}, crowded}: errors in those of the data
+    calibration           see comparisons/inference/calibration.py; only with --calibrate
+    sensitivity           see comparisons/inference/sensitivity.py; only with --sensitivity
+
+posterior.csv: one sample in a row, a column for each unknown. predictive.csv: column, time_us, low, median, high (90 % band).
+"""
+
+import math
+
+import numpy as np
+from scipy.stats import chi2
+
+from comparisons.inference.batch import batch_of, values_at, within_course
+from comparisons.inference.course import BUDDED
+from comparisons.inference.identifiability import directions
+from comparisons.inference.observations import QUANTITIES
+
+#: Ends of a 90 % interval: quantiles, and standard deviations of a normal one.
+LOW, HIGH, DEVIATIONS = 0.05, 0.95, 1.6449
+
+#: Samples and times of a band; it is drawn where this fraction of the samples has the quantity.
+BAND_SAMPLES, BAND_TIMES, BAND_EXISTS = 400, 120, 0.95
+
+#: A fit with a smaller probability is worth a warning.
+LEAST_P_VALUE = 1e-3
+
+
+def fit_results(problem, inference, units):
+    """The part of infer.json that comes from the data; units: {key: unit} of parameters."""
+    fit, posterior, trained = inference.fit, inference.posterior, inference.trained
+    freedom = max(0, len(problem.data) - len(problem.unknowns))
+    batch = trained.batch(posterior.x[:, : problem.engine_count])
+    covered = problem.covered(batch_of([fit.course]), fit.x[None, :])[0]
+    factor, offset = problem.clocks(posterior.x)
+    budding = batch.end * factor[:, 0] + offset[:, 0] if batch.outcome == BUDDED else None
+    return {
+        "unknowns": unknown_table(problem, fit, posterior, units),
+        "covariance": (np.outer(*2 * [[p.scale for p in problem.priors]]) * fit.covariance).tolist(),
+        "fit": {
+            "chi_square": fit.chi_square,
+            "degrees_of_freedom": freedom,
+            "p_value": float(chi2.sf(fit.chi_square, freedom)) if freedom else None,
+            "evaluations": fit.evaluations,
+            "outcome": fit.course.outcome,
+            "data": len(problem.data),
+            "outside": int(np.sum(~covered)),
+        },
+        "directions": [
+            {
+                "combination": one.words,
+                "deviation": one.deviation if math.isfinite(one.deviation) else None,
+                "shrinkage": one.shrinkage,
+                "verdict": one.verdict,
+                "vector": one.vector.tolist(),
+            }
+            for one in directions(problem, fit.jacobian)
+        ],
+        "posterior": {
+            "samples": len(posterior.x),
+            "effective": _finite(posterior.effective),
+            "autocorrelation": _finite(posterior.autocorrelation),
+            "acceptance": posterior.acceptance,
+            "converged": posterior.converged,
+            "budding_time_us": None if budding is None else interval(budding),
+        },
+        "emulator": {
+            **emulator_results(problem, trained),
+            "check": {key: _finite(value) for key, value in vars(inference.check).items()},
+            "crowded": inference.crowded,
+        },
+    }
+
+
+def _finite(value):
+    return value if math.isfinite(value) else None
+
+
+def emulator_results(problem, trained):
+    """Degree, runs and error of an emulator; the error is the largest over the data, in errors of the data."""
+    error = float(np.max(trained.errors / problem.errors)) if len(problem.data) else None
+    return {
+        "degree": trained.emulator.degree,
+        "runs": len(trained.emulator.points),
+        "excluded": trained.excluded,
+        "error": error,
+    }
+
+
+def unknown_table(problem, fit, posterior, units):
+    """The entries of `unknowns`, in the order of Problem.unknowns."""
+    deviations = np.sqrt(np.diag(fit.covariance))
+    entries = []
+    for i, (unknown, prior) in enumerate(zip(problem.unknowns, problem.priors)):
+        ends = np.clip(fit.x[i] + DEVIATIONS * deviations[i] * np.array([-1, 1]), prior.lowest, prior.highest)
+        linear = prior.value(ends)
+        timelike = unknown.time_offset or not (unknown.key or unknown.scales)
+        entries.append(
+            {
+                "name": unknown.name,
+                "unit": "µs" if timelike else units.get(unknown.key, ""),
+                "best": float(prior.value(fit.x[i])),
+                "linear_low": float(linear[0]),
+                "linear_high": float(linear[1]),
+                **interval(prior.value(posterior.x[:, i])),
+                "prior_low": float(prior.value(prior.lowest)),
+                "prior_high": float(prior.value(prior.highest)),
+                "needs_runs": i < problem.engine_count,
+            }
+        )
+    return entries
+
+
+def interval(values):
+    """{median, low, high} of samples (n,): a 90 % interval."""
+    low, median, high = np.quantile(values, (LOW, 0.5, HIGH))
+    return {"median": float(median), "low": float(low), "high": float(high)}
+
+
+def bands(problem, inference):
+    """{column: (times, low, median, high)} of the measured curves, each (n,), in the data's time; nan where hardly any sample
+    has the quantity."""
+    x = inference.posterior.x[np.linspace(0, len(inference.posterior.x) - 1, BAND_SAMPLES).astype(int)]
+    batch = inference.trained.batch(x[:, : problem.engine_count])
+    factor, offset = problem.clocks(x)
+    found = {}
+    for column in QUANTITIES:
+        times = [datum.time for datum in problem.data if datum.column == column]
+        if not times:
+            continue
+        grid = np.linspace(min(0, *times), 1.15 * max(times), BAND_TIMES)
+        own = (grid[None, :] - offset) / factor
+        values = np.where(within_course(batch, column, own), values_at(batch, column, own), np.nan)
+        enough = np.isfinite(values).mean(axis=0) >= BAND_EXISTS
+        band = np.full((3, BAND_TIMES), np.nan)
+        band[:, enough] = np.nanquantile(values[:, enough], (LOW, 0.5, HIGH), axis=0)
+        found[column] = (grid, *band)
+    return found
+
+
+def warnings(results):
+    """What a reader must know before trusting a study's results (the dict of infer.json)."""
+    found, runs = [], results["runs"]
+    if runs["alarmed"]:
+        what = f"{runs['alarmed']} of {runs['total']} runs left the bounds of an accurate run"
+        found.append(f"{what}; one: {runs['first_alarm']}")
+    fit, emulator, posterior = (results.get(name) for name in ("fit", "emulator", "posterior"))
+    if fit is None:
+        return found
+    if fit["p_value"] is not None and fit["p_value"] < LEAST_P_VALUE:
+        found.append(
+            f"the best fit misses the data by more than their errors allow: χ² = {fit['chi_square']:.4g} for "
+            f"{fit['degrees_of_freedom']} degrees of freedom; the model, the case or the errors are not those of the data"
+        )
+    if fit["outside"]:
+        where = "where the best run has no such number (before its neck, after its end)"
+        found.append(f"{fit['outside']} of {fit['data']} data lie {where}")
+    check = emulator["check"]
+    if check["size"] is None or check["size"] > 0.3 or check["unlike"]:
+        found.append(
+            "the emulator differs from the engine at samples of the posterior "
+            f"({check['unlike']} of {check['runs']} runs end differently); take narrower priors"
+        )
+    if emulator["crowded"] > 0.01:
+        found.append("the posterior reaches beyond the region of the emulator: its intervals are too narrow")
+    if not posterior["converged"]:
+        found.append("the chain is shorter than 50 autocorrelation times: intervals are uncertain")
+    loose = [one["combination"] for one in results["directions"] if one["verdict"] == "not separated"]
+    if loose:
+        found.append("the data do not separate " + "; nor ".join(loose) + ": what is said of these comes from the priors")
+    return found

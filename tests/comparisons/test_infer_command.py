@@ -1,0 +1,106 @@
+"""`endoflow infer` as a command: what it refuses, and a recovery with the sharp engine, which a second call does not repeat."""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+import locations
+from studies import StudyTest
+
+PROGRAM = os.environ.get("ENDOFLOW_PROGRAM")
+
+UNKNOWN = '[[unknown]]\nkey = "fluid.viscosity_intracellular"\nprior = "log-uniform"\nlow = 0.006\nhigh = 0.016\n'
+EVENT = '[[data]]\nevent = "budding"\ntime_us = 0.8\nerror_us = 0.01\n'
+
+
+class Refused(StudyTest):
+    def infer(self, text, *arguments):
+        (self.scratch / "study.toml").write_text('[study]\ncase = "case.toml"\n' + text)
+        return self.call("infer", "study.toml", *arguments)
+
+    def test_before_anything_runs(self):
+        (self.scratch / "neck.csv").write_text("time_us,neck_radius_nm\n0.1,x\n")
+        (self.scratch / "good.csv").write_text("time_us,neck_radius_nm\n0.1,20\n")
+        (self.scratch / "odd.csv").write_text("time_us,neck\n0.1,20\n")
+        data = '[[data]]\nfile = "{}"\n'
+        for text, message in (
+            ("", "needs at least one"),
+            (UNKNOWN, "needs \\[\\[data\\]\\]"),
+            (UNKNOWN + "[[datum]]\n", "unknown key 'datum'; known: "),
+            (UNKNOWN.replace("low = 0.006\n", "") + EVENT, "\\[\\[unknown\\]\\] 1 .*needs low"),
+            (UNKNOWN.replace("viscosity_intracellular", "viscosity") + EVENT, "fluid.viscosity is no parameter with a number"),
+            (UNKNOWN.replace("key", "kye") + EVENT, "unknown key 'kye'"),
+            (UNKNOWN + EVENT.replace("budding", "fusion"), "known: budding"),
+            (UNKNOWN + EVENT.replace("0.01", "0"), "must be greater than 0"),
+            (UNKNOWN + data.format("neck.csv"), "row 2, column neck_radius_nm: 'x' is no number"),
+            (UNKNOWN + data.format("good.csv"), "needs a column neck_radius_error_nm"),
+            (UNKNOWN + data.format("odd.csv"), "unknown column 'neck'; known: time_us"),
+            (UNKNOWN + data.format("no.csv"), "no.csv: No such file"),
+            (UNKNOWN + '[[data]]\nrun = "nowhere"\nerror = 1\n', "no such directory"),
+            (UNKNOWN + EVENT + "[set]\nmolecules.patch_radius = 3\n", "the keys in quotes"),
+            (UNKNOWN + EVENT + "[", "study.toml: Invalid initial character"),
+        ):
+            with self.subTest(message):
+                self.assert_one_line(self.infer(text), 2, message)
+        self.assert_one_line(self.call("infer", "no.toml"), 4, "no.toml: No such file")
+        self.assertEqual(self.runs(), [])
+
+    def test_every_run_fails(self):
+        """The program's own words, and the exit code of a solver that stopped."""
+        defaults = json.loads((self.scratch / "defaults.json").read_text())
+        defaults["molecules"]["patch_radius"] = 13
+        defaults["output"] = {"field_interval": 1.0, "shape_interval": 1.0, "stop_at_budding": False}
+        (self.scratch / "defaults.json").write_text(json.dumps(defaults))
+        process = self.infer(UNKNOWN + EVENT)
+        self.assertEqual(process.returncode, 3, process.stderr)
+        self.assertRegex(process.stderr, r"^endoflow infer: every run failed, .*step-underflow.*\n$")
+
+
+@unittest.skipUnless(PROGRAM and Path(PROGRAM).exists(), "ENDOFLOW_PROGRAM names no program")
+class WithTheEngine(StudyTest):
+    SETTINGS = {"boundary_integral.elements": 24, "output.field_interval": 0}
+
+    def setUp(self):
+        super().setUp()
+        self.program = Path(PROGRAM)
+        settings = [part for key, value in self.SETTINGS.items() for part in ("--set", f"{key}={value}")]
+        true = ["--set", "fluid.viscosity_intracellular=0.0125", "--until", "0.002", "-o", "truth"]
+        subprocess.run(
+            [PROGRAM, "run", "boundary-integral", "case.toml", *settings, *true],
+            cwd=self.scratch,
+            check=True,
+            capture_output=True,
+        )
+        lines = "".join(f'"{key}" = {value}\n' for key, value in self.SETTINGS.items())
+        data = '[[data]]\nrun = "truth"\ncolumns = ["bud_height_nm"]\nerror = 0.01\npoints = 20\nfrom = 0.0002\n'
+        (self.scratch / "study.toml").write_text(
+            f'[study]\ncase = "case.toml"\nhorizon = 0.002\n[set]\n{lines}{UNKNOWN}{data}'
+        )
+
+    def test_recovery_and_a_second_call(self):
+        """Data without noise: the truth is the best fit to what differences of 0.02 and a tolerance of 1e-4 leave, 1e-3."""
+        process = self.call("infer", "study.toml")
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        output = self.scratch / "out/study/infer"
+        found = json.loads((output / "infer.json").read_text())
+        self.assertAlmostEqual(found["unknowns"][0]["best"] / 0.0125, 1, delta=1e-3)
+        self.assertLess(found["unknowns"][0]["low"], 0.0125)
+        self.assertGreater(found["unknowns"][0]["high"], 0.0125)
+        self.assertEqual(found["warnings"], [])
+        with open(output / "posterior.csv", newline="", encoding="utf-8") as file:
+            self.assertGreater(len(list(csv.DictReader(file))), 500)
+        page = (output / "report.html").read_text()
+        for text in ("Parameters from data", "fixed by the data", "fluid.viscosity_intracellular"):
+            self.assertIn(text, page)
+        again = self.call("infer", "study.toml")
+        self.assertEqual((again.returncode, again.stderr), (0, ""))
+        self.assertNotIn("running", again.stdout)
+        self.assertEqual(json.loads((output / "infer.json").read_text()), found)
+
+
+if __name__ == "__main__":
+    unittest.main()
