@@ -20,17 +20,26 @@ FlowBalances balances(const MembraneDynamics& dynamics, const Evaluation& e) {
 
 }  // namespace
 
-std::vector<std::string> own_history_columns() {
-    return {"dissipated_power_pN_nm_per_us",
-            "energy_rate_pN_nm_per_us",
-            "energy_balance_relative",
-            "force_balance_relative",
-            "net_flux_relative",
-            "area_balance_relative",
-            "inflow_nm_per_us",
-            "wall_distance_nm",
-            "integrator_order",
-            "load_power_pN_nm_per_us"};
+const std::vector<OwnColumn<StepBalances>>& own_history_columns() {
+    using B = StepBalances;
+    static const std::vector<OwnColumn<B>> columns{
+        {"dissipated_power_pN_nm_per_us", "∫ f·u", [](const B& b) { return b.energy.dissipated_power; }},
+        {"energy_rate_pN_nm_per_us", "dE/dt along the computed motion",
+         [](const B& b) { return b.energy.energy_rate; }},
+        {"energy_balance_relative", "\\|dE/dt + ∫ f·u − diffusion\\| / ∫ f·u, with all that changes c in the material",
+         [](const B& b) { return b.energy.residual(); }},
+        {"force_balance_relative", "forces of membrane and pin band against the tractions on the walls",
+         [](const B& b) { return b.flow.force; }},
+        {"net_flux_relative", "volume flux out of each phase", [](const B& b) { return b.flow.net_flux; }},
+        {"area_balance_relative", "area growth against inflow of membrane", [](const B& b) { return b.flow.area; }},
+        {"inflow_nm_per_us", "u_r at the rim", [](const B& b) { return b.inflow; }},
+        {"wall_distance_nm", "to the nearest wall, the rim's neighbourhood left out",
+         [](const B& b) { return b.wall_distance; }},
+        {"integrator_order", "order of the time step", [](const B& b) { return static_cast<double>(b.order); }},
+        {"load_power_pN_nm_per_us", "power of rim tension, pressure and pole force",
+         [](const B& b) { return b.energy.external_power; }},
+    };
+    return columns;
 }
 
 HistoryRecorder::HistoryRecorder(const Parameters& parameters, const MembraneDynamics& dynamics, RunOutput& output)
@@ -39,14 +48,14 @@ HistoryRecorder::HistoryRecorder(const Parameters& parameters, const MembraneDyn
 void HistoryRecorder::record(double time, const Evaluation& evaluation, int order) {
     const PhaseTimer timer(output_, "observables");
     const ShapeIntegrals shape = shape_integrals(dynamics_.space(), evaluation.state, parameters_.domain);
-    check_walls(shape, parameters_.domain, time);
+    if (shape.walls) shape.walls->require_clearance(time);
     check_stiffness(evaluation.samples.c, dynamics_.model(), parameters_, time);
     HistoryRow row;
     row.time_us = time;
     row.step_us = time - last_row_;
     if (const auto neck = find_neck(dynamics_.space(), evaluation.state)) {
         row.neck_radius_nm = neck->radius;
-        row.bud_diameter_nm = 2.0 * neck->widest_radius;
+        row.bud_diameter_nm = neck->lateral_diameter;
     }
     row.bud_height_nm = shape.height;
     row.membrane_area_nm2 = shape.area;
@@ -57,25 +66,11 @@ void HistoryRecorder::record(double time, const Evaluation& evaluation, int orde
     strain_rates_ = std::move(strain_rates);
     row.area_strain_max = strain_.largest();
     row.volume_extracellular_nm3 = shape.extracellular_volume;
-    row.extra = own_values(evaluation, shape, order);
+    row.extra =
+        own_values(own_history_columns(), {energy_balance(dynamics_, evaluation), balances(dynamics_, evaluation),
+                                           evaluation.flow.inflow, shape.walls ? shape.walls->smallest() : 0.0, order});
     output_.record_step(row);
     last_row_ = time;
-}
-
-std::vector<double> HistoryRecorder::own_values(const Evaluation& evaluation, const ShapeIntegrals& shape,
-                                                int order) const {
-    const FlowBalances flow = balances(dynamics_, evaluation);
-    const EnergyBalance energy = energy_balance(dynamics_, evaluation);
-    return {energy.dissipated_power,
-            energy.energy_rate,
-            energy.residual(),
-            flow.force,
-            flow.net_flux,
-            flow.area,
-            evaluation.flow.inflow,
-            shape.wall_distance,
-            static_cast<double>(order),
-            energy.external_power};
 }
 
 void HistoryRecorder::save(Checkpoint& checkpoint) const {

@@ -6,12 +6,22 @@
 #include "boundary_integral/evolution/material_strain.h"
 #include "boundary_integral/evolution/membrane_dynamics.h"
 #include "boundary_integral/evolution/observation.h"
+#include "shared/output/history_columns.h"
 #include "shared/output/run_output.h"
 
 namespace endoflow::boundary_integral {
 
-/// Names of this engine's own columns of history.csv, in the order of the recorder's values.
-[[nodiscard]] std::vector<std::string> own_history_columns();
+/// What this engine checks at a step beyond what all engines record.
+struct StepBalances {
+    EnergyBalance energy;
+    FlowBalances flow;
+    double inflow;         // of membrane at the rim, nm/µs
+    double wall_distance;  // nm, 0 without walls
+    int order;             // of the integrator
+};
+
+/// This engine's own columns of history.csv.
+[[nodiscard]] const std::vector<OwnColumn<StepBalances>>& own_history_columns();
 
 /// Rows of history.csv: what is measured on the membrane at the end of a step or at an event.
 class HistoryRecorder {
@@ -38,9 +48,6 @@ class HistoryRecorder {
     MaterialStrain strain_;
     MaterialRates strain_rates_;  // at the last row
     double last_row_ = 0.0;       // µs
-
-    [[nodiscard]] std::vector<double> own_values(const Evaluation& evaluation, const ShapeIntegrals& shape,
-                                                 int order) const;
 };
 
 }  // namespace endoflow::boundary_integral

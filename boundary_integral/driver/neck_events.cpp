@@ -2,8 +2,6 @@
 
 #include <limits>
 
-#include "shared/geometry/observables.h"
-
 namespace endoflow::boundary_integral {
 
 NeckEvents::NeckEvents(const Parameters& parameters, const MembraneDynamics& dynamics, RunOutput& output)
@@ -39,7 +37,7 @@ void NeckEvents::record(const char* name, double time, const StiffIntegrator& in
     const auto neck = find_neck(dynamics_.space(), state);
     output_.record_event(name, time,
                          {{"neck_radius_nm", neck ? neck->radius : 0.0},
-                          {"bud_diameter_nm", neck ? 2.0 * neck->widest_radius : 0.0},
+                          {"bud_diameter_nm", neck ? neck->lateral_diameter : 0.0},
                           {"bud_height_nm", shape.height},
                           {"membrane_area_nm2", shape.area}});
 }

@@ -15,15 +15,6 @@ constexpr double overshooting_part = 0.25;
 
 }  // namespace
 
-void check_walls(const ShapeIntegrals& shape, const DomainParameters& domain, double time) {
-    if (domain.kind != DomainKind::box || shape.wall_distance >= domain.wall_clearance) return;
-    throw SolverError("membrane-near-wall",
-                      fmt::format("the membrane is {:.6f} nm from a wall at t = {:.6f} µs, nearer than "
-                                  "domain.wall_clearance",
-                                  shape.wall_distance, time),
-                      "enlarge domain.height or move domain.membrane_height");
-}
-
 void check_stiffness(const std::vector<double>& concentrations, const BendingModel& model, const Parameters& parameters,
                      double time) {
     for (const double c : concentrations) {

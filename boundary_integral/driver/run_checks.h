@@ -2,15 +2,10 @@
 
 #include <vector>
 
-#include "boundary_integral/evolution/observation.h"
 #include "shared/model/bending_model.h"
 #include "shared/parameters/parameters.h"
 
 namespace endoflow::boundary_integral {
-
-/// Throws SolverError("membrane-near-wall") when the shape is nearer to a wall than domain.wall_clearance. `time` in
-/// µs.
-void check_walls(const ShapeIntegrals& shape, const DomainParameters& domain, double time);
 
 /// Beside the coat's edge c leaves [0, 1] by some hundredths. That is harmless as long as b(c) stays positive; bending
 /// with a negative stiffness is ill-posed, and no time step would be small enough: SolverError("negative-stiffness").

@@ -12,16 +12,24 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-// Zero of r' in [low, high], where it changes sign: bisection, then Newton.
-double stationary_radius(const MembraneSpace& space, const MembraneState& state, double low, double high) {
-    const double sign = space.radial().basis(low).evaluate(state.r, 1) > 0.0 ? 1.0 : -1.0;
-    double middle = low;
-    for (int i = 0; i < 60; ++i) {
-        middle = 0.5 * (low + high);
-        (sign * space.radial().basis(middle).evaluate(state.r, 1) > 0.0 ? low : high) = middle;
+/// The spline as it is: r and r' at any ξ.
+class SplineMeridian : public Meridian {
+  public:
+    SplineMeridian(const MembraneSpace& space, const MembraneState& state) : space_(space), state_(state) {
+        constexpr Index knots_per_element = 4;
+        const Index intervals = knots_per_element * space.elements();
+        for (Index i = 0; i <= intervals; ++i)
+            knots_.push_back(static_cast<double>(i) / static_cast<double>(intervals));
     }
-    return middle;
-}
+    [[nodiscard]] const std::vector<double>& knots() const override { return knots_; }
+    [[nodiscard]] double radius(double xi) const override { return space_.radial().basis(xi).evaluate(state_.r); }
+    [[nodiscard]] double slope(double xi) const override { return space_.radial().basis(xi).evaluate(state_.r, 1); }
+
+  private:
+    const MembraneSpace& space_;
+    const MembraneState& state_;
+    std::vector<double> knots_;
+};
 
 const QuadratureRule& arc_length_rule() {
     static const QuadratureRule rule = gauss_legendre(4);
@@ -39,38 +47,22 @@ double height(const MembraneSpace& space, const MembraneSamples& samples, const 
     return highest - (space.end() == CurveEnd::closed ? lowest : domain.membrane_height);
 }
 
-double wall_distance(const MembraneSpace& space, const MembraneSamples& samples, const DomainParameters& domain) {
+WallDistance wall_distance(const MembraneSpace& space, const MembraneSamples& samples, const DomainParameters& domain) {
     double to_rim = 0.0;
     for (std::size_t i = 0; i < space.xi.size(); ++i) to_rim += space.weight[i] * samples.curve[i].g;
-    double distance = 1e300;
+    WallDistance walls(domain);
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
         const CurvePoint& p = samples.curve[i];
         to_rim -= space.weight[i] * p.g;
-        distance = std::min({distance, p.z, domain.height - p.z});
-        if (to_rim > 4.0 * domain.wall_clearance) distance = std::min(distance, domain.radius - p.r);
+        walls.look_at(p.r, p.z, to_rim);
     }
-    return distance;
+    return walls;
 }
 
 }  // namespace
 
-std::optional<NeckOfCurve> find_neck(const MembraneSpace& space, const MembraneState& state) {
-    const Index samples = 4 * space.elements();
-    std::optional<double> widest;
-    double previous = 0.0;
-    for (Index i = 1; i <= samples; ++i) {
-        const double xi = static_cast<double>(i) / static_cast<double>(samples);
-        const double slope = space.radial().basis(xi).evaluate(state.r, 1);
-        if (!widest && slope < 0.0) {
-            widest = stationary_radius(space, state, previous, xi);
-        } else if (widest && slope > 0.0) {
-            const double neck = stationary_radius(space, state, previous, xi);
-            return NeckOfCurve{space.radial().basis(neck).evaluate(state.r),
-                               space.radial().basis(*widest).evaluate(state.r), neck};
-        }
-        previous = xi;
-    }
-    return std::nullopt;
+std::optional<Neck> find_neck(const MembraneSpace& space, const MembraneState& state) {
+    return find_neck(SplineMeridian(space, state));
 }
 
 ShapeIntegrals shape_integrals(const MembraneSpace& space, const MembraneState& state, const DomainParameters& domain) {
@@ -84,7 +76,7 @@ ShapeIntegrals shape_integrals(const MembraneSpace& space, const MembraneState& 
         result.extracellular_volume += ring * p.r1 * (p.z - domain.membrane_height);
     }
     result.height = height(space, samples, state, domain);
-    if (domain.kind == DomainKind::box) result.wall_distance = wall_distance(space, samples, domain);
+    if (domain.kind == DomainKind::box) result.walls = wall_distance(space, samples, domain);
     return result;
 }
 

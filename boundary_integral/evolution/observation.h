@@ -7,25 +7,20 @@
 
 #include "boundary_integral/evolution/membrane_dynamics.h"
 #include "shared/geometry/membrane_curve.h"
+#include "shared/geometry/meridian.h"
+#include "shared/geometry/wall_distance.h"
 
 namespace endoflow::boundary_integral {
 
-struct NeckOfCurve {
-    double radius;         // smallest r between the bud's widest place and the rim, nm
-    double widest_radius;  // largest r of the bud above the neck, nm
-    double xi;
-};
-
-// First local minimum of r after its first local maximum, seen from the axis; both are zeros of r'(xi), found to
-// round-off.
-std::optional<NeckOfCurve> find_neck(const MembraneSpace& space, const MembraneState& state);
+/// The neck of the spline curve; its t is ξ.
+[[nodiscard]] std::optional<Neck> find_neck(const MembraneSpace& space, const MembraneState& state);
 
 struct ShapeIntegrals {
     double area = 0.0;                  // nm^2
     double mass = 0.0;                  // int c dA, nm^2
     double extracellular_volume = 0.0;  // int (z - z_rim) 2 pi r dr: inside a closed surface all of it, nm^3
-    double height = 0.0;         // largest z - z_rim; of a closed surface: between its highest and lowest point, nm
-    double wall_distance = 0.0;  // to bottom, top and side, the neighbourhood of the rim left out, nm; 0 without walls
+    double height = 0.0;  // largest z - z_rim; of a closed surface: between its highest and lowest point, nm
+    std::optional<WallDistance> walls;  // of a box
 };
 ShapeIntegrals shape_integrals(const MembraneSpace& space, const MembraneState& state, const DomainParameters& domain);
 

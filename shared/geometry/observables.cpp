@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -34,7 +33,7 @@ void require_valid(const MembraneCurve& curve) {
             throw std::invalid_argument("a membrane curve must not repeat a point");
 }
 
-struct Shape {
+struct Shape : Meridian {
     std::vector<double> t;
     AxisymmetricSpline r, z;
 
@@ -43,29 +42,24 @@ struct Shape {
 
     /// ∫ f(t) dt, 7-point Gauss on every interval between samples: the splines are polynomials there.
     template <class Integrand>
-    double integrate(std::size_t intervals, const Integrand& f) const {
+    double integrate(const Integrand& f) const {
         double sum = 0;
-        for (std::size_t i = 0; i < intervals; ++i) sum += Quadrature::integrate(f, t[i], t[i + 1]);
+        for (std::size_t i = 0; i + 1 < t.size(); ++i) sum += Quadrature::integrate(f, t[i], t[i + 1]);
         return sum;
     }
+
+    [[nodiscard]] const std::vector<double>& knots() const override { return t; }
+    [[nodiscard]] double radius(double at) const override { return r.value(at); }
+    [[nodiscard]] double slope(double at) const override { return r.derivative(at); }
 
     double metric(double at) const { return std::hypot(r.derivative(at), z.derivative(at)); }
 };
 
-/// Where f' changes sign in (t[i], t[i+1]), to round-off.
-double stationary_point(const AxisymmetricSpline& f, double lower, double upper) {
-    std::uintmax_t iterations = 60;
-    const auto slope = [&](double at) { return f.derivative(at); };
-    const auto bracket = boost::math::tools::toms748_solve(slope, lower, upper,
-                                                           boost::math::tools::eps_tolerance<double>(48), iterations);
-    return 0.5 * (bracket.first + bracket.second);
-}
-
-/// The largest value of f up to sample `last`, also between samples. f' is a quadratic polynomial there, whose roots
-/// are looked at without asking for signs of f' at the samples: on the axis f' is zero, with the sign of its round-off.
-double largest(const AxisymmetricSpline& f, const std::vector<double>& t, std::size_t last) {
-    double best = f.value(t[last]);
-    for (std::size_t i = 0; i < last; ++i) {
+/// The largest value of f, also between samples. f' is a quadratic polynomial there, whose roots are looked at without
+/// asking for signs of f' at the samples: on the axis f' is zero, with the sign of its round-off.
+double largest(const AxisymmetricSpline& f, const std::vector<double>& t) {
+    double best = f.value(t.back());
+    for (std::size_t i = 0; i + 1 < t.size(); ++i) {
         best = std::max(best, f.value(t[i]));
         const double width = t[i + 1] - t[i], slope = f.derivative(t[i]), bend = f.second_derivative(t[i]);
         const double bend_change = (f.second_derivative(t[i + 1]) - bend) / width;
@@ -79,54 +73,26 @@ double largest(const AxisymmetricSpline& f, const std::vector<double>& t, std::s
     return best;
 }
 
-std::optional<Neck> find_neck(const Shape& shape) {
-    const auto& t = shape.t;
-    const auto& r = shape.r;
-    std::optional<Neck> neck;
-    std::size_t at_interval = 0;
-    double at = 0;
-    for (std::size_t i = 0; i + 1 < t.size(); ++i) {
-        if (!(r.derivative(t[i]) < 0 && r.derivative(t[i + 1]) >= 0)) continue;
-        const double candidate = stationary_point(r, t[i], t[i + 1]);
-        if (neck && r.value(candidate) >= neck->radius) continue;
-        neck = Neck{r.value(candidate), shape.z.value(candidate), 0, 0};
-        at = candidate;
-        at_interval = i;
-    }
-    if (!neck) return neck;
-    const auto metric = [&](double x) { return shape.metric(x); };
-    neck->s = shape.integrate(at_interval, metric) + Quadrature::integrate(metric, t[at_interval], at);
-    neck->lateral_diameter = 2 * largest(r, t, at_interval);
-    return neck;
-}
-
 }  // namespace
-
-std::optional<Neck> find_neck(const MembraneCurve& curve) {
-    require_valid(curve);
-    return find_neck(Shape(curve));
-}
 
 Observables measure(const MembraneCurve& curve, const BendingModel& model) {
     require_valid(curve);
     const Shape shape(curve);
     const AxisymmetricSpline c(shape.t, curve.c, Parity::even), kappa(shape.t, curve.kappa, Parity::even);
-    const std::size_t intervals = curve.size() - 1;
     const double z_rim = curve.z.back(), two_pi = 2 * std::numbers::pi;
     const auto area_element = [&](double t) { return two_pi * shape.r.value(t) * shape.metric(t); };
 
     const BendingTerm bending{model};
     Observables result{};
     result.neck = find_neck(shape);
-    result.bud_height = largest(shape.z, shape.t, intervals) - z_rim;
-    result.membrane_area = shape.integrate(intervals, area_element);
-    result.molecule_mass = shape.integrate(intervals, [&](double t) { return c.value(t) * area_element(t); });
-    result.bending_energy = shape.integrate(intervals, [&](double t) {
+    result.bud_height = largest(shape.z, shape.t) - z_rim;
+    result.membrane_area = shape.integrate(area_element);
+    result.molecule_mass = shape.integrate([&](double t) { return c.value(t) * area_element(t); });
+    result.bending_energy = shape.integrate([&](double t) {
         return bending.density(LocalShape<double>{kappa.value(t), c.value(t), 0}) * area_element(t);
     });
-    result.extracellular_volume = shape.integrate(intervals, [&](double t) {
-        return (shape.z.value(t) - z_rim) * two_pi * shape.r.value(t) * shape.r.derivative(t);
-    });
+    result.extracellular_volume = shape.integrate(
+        [&](double t) { return (shape.z.value(t) - z_rim) * two_pi * shape.r.value(t) * shape.r.derivative(t); });
     return result;
 }
 

@@ -35,6 +35,38 @@ struct HistoryColumn {
 /// The shared columns in file order: header, readers and documentation follow this table.
 [[nodiscard]] const std::vector<HistoryColumn>& common_history_columns();
 
+/// A column that one engine alone has: its value in what that engine has to say of a step. An engine's table of these
+/// is what its header, its rows and the documentation are made from.
+template <class Step>
+struct OwnColumn {
+    std::string name;  // ends in its unit
+    std::string meaning;
+    double (*value)(const Step&);
+};
+
+template <class Column>
+[[nodiscard]] std::vector<std::string> names_of(const std::vector<Column>& columns) {
+    std::vector<std::string> names;
+    for (const Column& column : columns) names.push_back(column.name);
+    return names;
+}
+
+/// HistoryRow::extra of a step.
+template <class Step>
+[[nodiscard]] std::vector<double> own_values(const std::vector<OwnColumn<Step>>& columns, const Step& step) {
+    std::vector<double> values;
+    for (const OwnColumn<Step>& column : columns) values.push_back(column.value(step));
+    return values;
+}
+
+/// The lines of a Markdown table of name and meaning, as docs/outputs.md has it.
+template <class Column>
+[[nodiscard]] std::string columns_as_markdown(const std::vector<Column>& columns) {
+    std::string text = "| column | what |\n| --- | --- |\n";
+    for (const Column& column : columns) text += "| `" + column.name + "` | " + column.meaning + " |\n";
+    return text;
+}
+
 /// Whether the history of an engine with these columns of its own has this one.
 [[nodiscard]] bool has_column(const std::string& column, const std::vector<std::string>& own_columns);
 

@@ -57,18 +57,6 @@ class Pages(unittest.TestCase):
             missing += [f"{page.name}: {name}" for name in tests if not known & {f"{name}.cpp", f"{name}.py"}]
         self.assertEqual(missing, [])
 
-    def test_every_column_is_described(self):
-        """Those that all histories have and those of the two engines."""
-        text = (locations.ROOT / "docs" / "outputs.md").read_text(encoding="utf-8")
-        common = (locations.ROOT / "shared/output/history_columns.cpp").read_text(encoding="utf-8")
-        names = re.findall(r'\{"(\w+)", "', common)
-        self.assertGreaterEqual(len(names), 11)
-        for place in ("boundary_integral/driver/history_recorder.cpp", "phasefield/driver/history.cpp"):
-            own = re.search(r"return \{((?:\s*\"\w+\",?)+)", (locations.ROOT / place).read_text(encoding="utf-8"))
-            names += re.findall(r'"(\w+)"', own[1])
-        self.assertGreaterEqual(len(names), 30)
-        self.assertEqual([name for name in names if f"`{name}`" not in text], [])
-
     def test_every_page_is_listed(self):
         index = (locations.ROOT / "docs" / "index.md").read_text(encoding="utf-8")
         linked = {target.split("#")[0] for target in LINK.findall(index)}

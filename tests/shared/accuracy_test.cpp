@@ -115,7 +115,8 @@ TEST_CASE("every bound is below its limit, names what to change, and belongs to 
     }
 }
 
-TEST_CASE("the documentation's table of bounds is the program's") {
+TEST_CASE("the documentation's tables of bounds and of the columns that all histories have are the program's") {
     const std::string page = content(ENDOFLOW_DOCS "/outputs.md");
     CHECK_THAT(page, Contains(render_accuracy_markdown()));
+    CHECK_THAT(page, Contains(columns_as_markdown(common_history_columns())));
 }
