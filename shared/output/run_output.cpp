@@ -103,9 +103,22 @@ struct RunOutput::Implementation {
     }
 
     void prepare_restart() {
-        directory.require_run();
+        require_run();
         lock = std::make_unique<RunLock>(directory);
+        directory.require_run();  // what was seen before may have been moved since
         take(read_restart_point(directory, parameters, engine));
+    }
+
+    /// While another process starts a run, the one that was there is on its way to earlier/: throws who it is.
+    void require_run() const {
+        try {
+            directory.require_run();
+        } catch (const IoError&) {
+            if (std::filesystem::exists(directory.lock())) {
+                const RunLock nobody(directory);
+            }
+            throw;
+        }
     }
 
     void take(RestartPoint point) {

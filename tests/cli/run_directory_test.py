@@ -82,6 +82,14 @@ class AnyEngine:
         self.assertEqual(third.returncode, 0, third.stderr)
         self.assertTrue((self.directory / "earlier" / "1").exists())
 
+    def test_restart_while_another_run_starts(self):
+        """The earlier run.json has been moved away and the next one is not there yet: somebody has the directory."""
+        self.directory.mkdir()
+        with open(self.directory / "lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            self.assert_refused(self.run_with("time.end=1e-4", restart=True), 4, "in use by another process")
+        self.assert_refused(self.run_with("time.end=1e-4", restart=True), 4, "no run to continue")
+
     def test_restart_that_has_nothing_to_do(self):
         before = self.copy_finished_run()
         for end in ("5e-5", "1e-5", "1e-12"):
