@@ -5,8 +5,8 @@
 
 #include "phasefield/layer/profile.h"
 #include "phasefield/schemes/production/constants.h"
-#include "phasefield/schemes/production/dual.h"
 #include "phasefield/schemes/production/membrane_weight.h"
+#include "shared/numerics/forward.h"
 
 namespace endoflow::phasefield::production {
 

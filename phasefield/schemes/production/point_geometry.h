@@ -4,10 +4,10 @@
 
 #include "phasefield/layer/profile.h"
 #include "phasefield/schemes/production/constants.h"
-#include "phasefield/schemes/production/dual.h"
 #include "phasefield/schemes/production/fields.h"
 #include "phasefield/schemes/production/layer_weights.h"
 #include "phasefield/schemes/production/membrane_weight.h"
+#include "shared/numerics/forward.h"
 #include "shared/parameters/parameters.h"
 
 namespace endoflow::phasefield::production {
