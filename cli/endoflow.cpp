@@ -24,13 +24,13 @@ namespace endoflow::cli {
 namespace {
 
 const std::vector<std::string> engines{"boundary-integral", "phase-field"};
-const std::vector<std::string> commands{"run",     "compare", "converge", "sweep",   "reproduce",
-                                        "movie",   "revolve", "report",   "modes",   "laws",
-                                        "statics", "params",  "check",    "summary", "infer"};
+const std::vector<std::string> commands{"run",     "compare", "converge", "sweep", "reproduce", "movie",
+                                        "revolve", "report",  "modes",    "laws",  "statics",   "params",
+                                        "check",   "summary", "infer",    "crate", "map"};
 
 /// Commands that are Python: modules in comparisons/commands/.
-const std::vector<std::string> scripts{"compare", "converge", "sweep",  "reproduce",
-                                       "movie",   "revolve",  "report", "infer"};
+const std::vector<std::string> scripts{"compare", "converge", "sweep", "reproduce", "movie",
+                                       "revolve", "report",   "infer", "crate",     "map"};
 
 constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, computed by two independent engines
 
@@ -40,8 +40,10 @@ constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, comp
   endoflow converge CASE.toml --epsilon E1,E2,...          phase field against sharp membrane as the layer gets thin
   endoflow sweep CASE.toml --vary KEY=FIRST:LAST:STEP --engine ENGINE [-o DIR] [--jobs N]      many runs of one case
   endoflow reproduce ITEM [--quick|--full] [-o DIR] [--jobs N]     the paper: table2, fig3 ... fig7, figA2 or all
+  endoflow map CASE.toml --vary KEY=LOW:HIGH --vary KEY=LOW:HIGH [-o DIR]   where outcomes change over two parameters
   endoflow infer STUDY.toml [-o DIR] [--calibrate N] [--sensitivity]       parameters from measured or simulated data
   endoflow report DIR [-o DIR]                             a page of one run: plots, numbers, alarms, provenance
+  endoflow crate DIR [--license URL]                       a run's directory described for archives (RO-Crate)
   endoflow movie DIR [-o FILE.mp4|FILE.gif]                a run as a film (needs ffmpeg)
   endoflow revolve DIR [--angle DEGREES]                   a run's membrane as surfaces in space, for ParaView
   endoflow modes DIR [--modes 1:8] [--times N]             a sharp run's azimuthal modes: does the bud stay round?

@@ -5,8 +5,13 @@ if(ENDOFLOW_PHASEFIELD)
 endif()
 install(DIRECTORY comparisons python cases DESTINATION ${CMAKE_INSTALL_DATADIR}/endoflow
         PATTERN "__pycache__" EXCLUDE PATTERN "CMakeLists.txt" EXCLUDE)
-install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/endoflow)
+install(FILES README.md CHANGELOG.md CITATION.cff codemeta.json DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/endoflow)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/endoflow RENAME copyright)
+
+install(FILES ${ENDOFLOW_MANUAL_DIR}/endoflow.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${ENDOFLOW_MANUAL_DIR}/endoflow.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME endoflow)
+install(FILES ${ENDOFLOW_MANUAL_DIR}/_endoflow DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+install(FILES ${ENDOFLOW_MANUAL_DIR}/endoflow.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "endoflow maintainers")

@@ -119,7 +119,8 @@ class CommandLine(unittest.TestCase):
         self.assertIn("(case 'mine')", endoflow("check", "fickian", cwd=self.root).stdout)
 
     def test_commands_describe_their_options(self):
-        for command in (["run", "boundary-integral"], ["statics"], ["check"], ["params"], ["laws"], ["summary"]):
+        for command in (["run", "boundary-integral"], ["statics"], ["check"], ["params"], ["laws"], ["summary"],
+                        ["sweep"], ["infer"], ["crate"], ["movie"]):
             with self.subTest(command):
                 found = json.loads(endoflow(*command, "--describe").stdout)
                 self.assertEqual(found["command"], " ".join(["endoflow", *command]))

@@ -3,6 +3,7 @@
     python3 tests/cli/installed_test.py cmake build
 """
 
+import json
 import os
 import subprocess
 import sys
@@ -41,9 +42,19 @@ class Installed(unittest.TestCase):
         self.endoflow("revolve", self.root / "run")
         self.assertTrue((self.root / "run" / "membrane.pvd").is_file())
 
+    def test_one_version(self):
+        """Where a version's number stands besides the program."""
+        source = Path(__file__).resolve().parents[2]
+        number = self.endoflow("--version").split()[1]
+        self.assertEqual(json.loads((source / "codemeta.json").read_text(encoding="utf-8"))["version"], number)
+        self.assertIn(f"\nversion: {number}\n", (source / "CITATION.cff").read_text(encoding="utf-8"))
+        self.assertIn(f'version = "{number}"', (source / "python" / "pyproject.toml").read_text(encoding="utf-8"))
+
     def test_data(self):
         share = self.root / "moved" / "share"
-        for name in ("endoflow/cases/standard.toml", "endoflow/python/endoflow/__init__.py", "doc/endoflow/copyright"):
+        for name in ("endoflow/cases/standard.toml", "endoflow/python/endoflow/__init__.py", "doc/endoflow/copyright",
+                     "man/man1/endoflow.1", "bash-completion/completions/endoflow", "zsh/vendor-completions/_endoflow",
+                     "fish/vendor_completions.d/endoflow.fish"):
             self.assertTrue((share / name).is_file(), name)
         self.assertEqual(list(share.rglob("__pycache__")), [])
 

@@ -4,8 +4,8 @@
 Settings steer it: a patch radius of 13 or an ε of 0.7 makes `run` fail as a solver does, geometric dynamics are refused by
 the boundary-integral engine, the case.name "slow" makes it run until SIGINT or SIGTERM and end with a checkpoint, so does a patch radius that
 stands in the file `slow` in the working directory. A patch radius of 17 fails in the midst of the run, whose record says so. A patch radius
-above 1000 and unknown keys are refused. Every run appends a
-line to runs.log in the working directory, where defaults.json holds the parameters.
+above 1000 and unknown keys are refused. The motion is as slow as the
+intracellular viscosity. Every run appends a line to runs.log in the working directory, where defaults.json holds the parameters.
 """
 
 import json
@@ -83,12 +83,13 @@ def run(engine, case, settings, output, restart):
 
     end = parameters["time"]["end"]
     offset = 0.2 * epsilon**2 if engine == "phase-field" else 0.0
+    duration = parameters["fluid"]["viscosity_intracellular"] / 1e-2
     times = [0.25 * end * i for i in range(5)]
     named = Path("slow").exists() and float(Path("slow").read_text()) == patch_radius
     slow = (name == "slow" and not restart) or named
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: None)
-    synthetic.write_run(output, engine, lambda t: synthetic.budding_membrane(t, 1.0, offset), times, 400, parameters)
+    synthetic.write_run(output, engine, lambda t: synthetic.budding_membrane(t, duration, offset), times, 400, parameters)
     (output / "checkpoint").mkdir(exist_ok=True)
     (output / "checkpoint" / "state.h5").write_text("")
     if patch_radius == 17:

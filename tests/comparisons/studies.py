@@ -38,6 +38,13 @@ class StudyTest(CommandTest):
         }
         (self.scratch / "defaults.json").write_text(json.dumps(defaults))
 
+    def defaults(self, section, **values):
+        """Change the program's defaults in a section, which may be new."""
+        path = self.scratch / "defaults.json"
+        content = json.loads(path.read_text())
+        content[section] = {**content.get(section, {}), **values}
+        path.write_text(json.dumps(content))
+
     def arguments(self, command, *arguments):
         return [sys.executable, locations.COMPARISONS, command, *map(str, arguments)]
 

@@ -51,10 +51,8 @@ class Refused(StudyTest):
 
     def test_every_run_fails(self):
         """The program's own words, and the exit code of a solver that stopped."""
-        defaults = json.loads((self.scratch / "defaults.json").read_text())
-        defaults["molecules"]["patch_radius"] = 13
-        defaults["output"] = {"field_interval": 1.0, "shape_interval": 1.0, "stop_at_budding": False}
-        (self.scratch / "defaults.json").write_text(json.dumps(defaults))
+        self.defaults("molecules", patch_radius=13)
+        self.defaults("output", field_interval=1.0, shape_interval=1.0, stop_at_budding=False)
         process = self.infer(UNKNOWN + EVENT)
         self.assertEqual(process.returncode, 3, process.stderr)
         self.assertRegex(process.stderr, r"^endoflow infer: every run failed, .*step-underflow.*\n$")

@@ -15,7 +15,7 @@ SUFFIXES = (".h", ".cpp", ".in", ".py", ".js", ".css", ".html", ".lua", ".cmake"
 NAMES = ("CMakeLists.txt", "Makefile", "Snakefile")
 
 #: Folders from which Python modules are imported by their bare name, beside the importing file's own and those above it.
-PYTHON_ROOTS = ("python", "comparisons", "bench", "tools/docs", "tools/architecture")
+PYTHON_ROOTS = ("python", "comparisons", "bench", "tools/docs", "tools/architecture", "tools/manual")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.M)
 
