@@ -108,7 +108,7 @@ FactorsOf<Data>::FactorsOf(const dealii::SparsityPattern& pattern, unsigned int 
         id.redrhs = reduced_.data();
         id.lredrhs = static_cast<MUMPS_INT>(kept_);
     }
-    if (size_ > 0) handle_.run(job_order);  // after an error factorise() fails
+    if (size_ > kept_) handle_.run(job_order);  // after an error factorise() fails
 }
 
 template <class Data>
@@ -130,7 +130,13 @@ void FactorsOf<Data>::scale(const dealii::SparseMatrix<double>& matrix) {
 
 template <class Data>
 bool FactorsOf<Data>::factorise(const dealii::SparseMatrix<double>& matrix, dealii::FullMatrix<double>& left) {
-    if (size_ == 0) return true;
+    left.reinit(kept_, kept_);
+    if (size_ == kept_) {  // MUMPS wants something to eliminate
+        for (unsigned int i = 0; i < size_; ++i)
+            for (auto entry = matrix.begin(i); entry != matrix.end(i); ++entry)
+                left(i, entry->column()) = entry->value();
+        return true;
+    }
     scale(matrix);
 
     int status = handle_.run(job_factorise);
@@ -139,7 +145,6 @@ bool FactorsOf<Data>::factorise(const dealii::SparseMatrix<double>& matrix, deal
         status = handle_.run(job_factorise);
     }
     if (status < 0) return false;
-    left.reinit(kept_, kept_);
     const std::size_t eliminated = size_ - kept_;
     std::size_t entry = 0;
     for (unsigned int i = 0; i < kept_; ++i)
@@ -151,6 +156,10 @@ bool FactorsOf<Data>::factorise(const dealii::SparseMatrix<double>& matrix, deal
 
 template <class Data>
 bool FactorsOf<Data>::reduce(const dealii::Vector<double>& right_hand_side, dealii::Vector<double>& reduced) {
+    if (size_ == kept_) {
+        reduced = right_hand_side;
+        return true;
+    }
     // The kept unknowns' residual is only a process's part of it: it does not vanish with the whole, and single
     // precision would leave a rest of it.
     const std::size_t eliminated = size_ - kept_;
@@ -168,7 +177,10 @@ bool FactorsOf<Data>::reduce(const dealii::Vector<double>& right_hand_side, deal
 
 template <class Data>
 bool FactorsOf<Data>::expand(const dealii::Vector<double>& kept, dealii::Vector<double>& solution) {
-    if (size_ == 0) return true;
+    if (size_ == kept_) {
+        solution = kept;
+        return true;
+    }
     const std::size_t eliminated = size_ - kept_;
     for (unsigned int i = 0; i < kept_; ++i) reduced_[i] = static_cast<Real>(kept(i) / column_scale_[eliminated + i]);
     handle_.control(26) = kept_ > 0 ? 2 : 0;

@@ -25,6 +25,7 @@ void SubdomainSystem::reinit(const std::vector<std::vector<Index>>& cells, const
     right_hand_side_.reinit(size_);
     solution_.reinit(size_);
     shared_values_.reinit(shared_);
+    precision_ = Precision::single;
     factors_ = mumps_factors(pattern_, shared_, precision_);
     factors_valid_ = false;
 }

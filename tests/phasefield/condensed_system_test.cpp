@@ -197,7 +197,42 @@ TEST_CASE("a condensed system has the same solution", "[condensation]") {
     }
 }
 
-TEST_CASE("a condensed system has the same solution on two processes", "[condensation][mpi]") {
+TEST_CASE("on a new mesh single precision is tried again", "[condensation]") {
+    Problem problem(MPI_COMM_SELF, true);
+    problem.condensed.use(Precision::full);
+    problem.condensed.reinit(problem.space);
+    CHECK(problem.condensed.precision() == Precision::single);
+    CHECK(problem.difference() < single_round_off);
+}
+
+TEST_CASE("a process may share all of its unknowns with others", "[condensation]") {
+    dealii::DynamicSparsityPattern all(2, 2);
+    for (unsigned int i = 0; i < 2; ++i)
+        for (unsigned int k = 0; k < 2; ++k) all.add(i, k);
+    dealii::SparsityPattern pattern;
+    pattern.copy_from(all);
+    dealii::SparseMatrix<double> matrix(pattern);
+    matrix.set(0, 0, 3);
+    matrix.set(0, 1, 1);
+    matrix.set(1, 0, -2);
+    matrix.set(1, 1, 0.1);
+    dealii::Vector<double> values(2), out(2);
+    values(0) = 5;
+    values(1) = 7;
+    for (const Precision precision : {Precision::single, Precision::full}) {
+        const auto factors = mumps_factors(pattern, 2, precision);
+        dealii::FullMatrix<double> left;
+        REQUIRE(factors->factorise(matrix, left));
+        for (unsigned int i = 0; i < 2; ++i)
+            for (unsigned int k = 0; k < 2; ++k) CHECK(left(i, k) == matrix(i, k));
+        REQUIRE(factors->reduce(values, out));
+        CHECK(out == values);
+        REQUIRE(factors->expand(values, out));
+        CHECK(out == values);
+    }
+}
+
+TEST_CASE("a condensed system has the same solution on several processes", "[condensation][mpi]") {
     Problem problem(MPI_COMM_WORLD, true);
     CHECK(problem.difference() < single_round_off);
     CHECK(problem.refined_difference() < round_off);

@@ -118,7 +118,7 @@ void StepSolver::solve(const Space& space, const StepNumbers& numbers, const Ste
         if (ending == Ending::converged) return;
         if (system_.precision() == Precision::single) {
             start_again();
-            system_.use(Precision::full);  // from now on, if it serves
+            system_.use(Precision::full);  // until the mesh changes, if it serves
         } else if (ending == Ending::diverged) {
             break;
         }
