@@ -9,6 +9,7 @@
 #include "boundary_integral/driver/history_recorder.h"
 #include "boundary_integral/driver/run_loop.h"
 #include "boundary_integral/support/parallel.h"
+#include "shared/model/loads.h"
 #include "shared/support/error.h"
 
 namespace endoflow::boundary_integral {
@@ -16,6 +17,7 @@ namespace endoflow::boundary_integral {
 namespace {
 
 void require_offered(const Parameters& parameters) {
+    require_no_coupling(parameters, "boundary-integral");
     if (parameters.fluid.inertia) {
         throw InputError("fluid.inertia: the boundary-integral engine solves the Stokes equations; set it to false");
     }

@@ -123,8 +123,14 @@ Number tension(const MaterialPoint<Number>& point, const Loads& loads, const Sta
            (0.5 * loads.pressure * r2 - point.force) * hoop + r2 * point.stress - point.elastic.density;
 }
 
-/// Δ_Γ c as a function of c and μ: zero of the chemical potential's deviation from its constant.
-Number concentration_source(const Setting& setting, const Number& c, const Number& potential) {
+/// Δ_Γ c as a function of c and μ: zero of the chemical potential's deviation from its constant. Under energetic
+/// coupling that is ∂e/∂c − 2 ∇_Γ·((∂e/∂|∇c|²) ∇_Γ c) over σ̂, with ∂e/∂|∇c|² = ½ σ̂ ε_c everywhere.
+Number concentration_source(const Setting& setting, const MaterialPoint<Number>& point, const Number& potential) {
+    const Number& c = point.c.value;
+    if (setting.transport.energetic) {
+        const double line_energy = setting.molecules.line_energy;
+        return (point.elastic.by_concentration / line_energy - potential) / setting.molecules.interface_width;
+    }
     const ValueAndDerivatives local = setting.transport.potential(c.value);
     const Number deviation = chain(c, local.value, local.first) - potential;
     if (setting.transport.edge_width == 0) {
@@ -155,7 +161,7 @@ SlopeValues slope(const Setting& setting, double x, const Eigen::VectorXd& state
     set(state::height, -hoop);
     if (!setting.frozen) {
         set(state::concentration, point.c.slope);
-        set(state::gradient, concentration_source(setting, point.c.value, v.global(global::potential)));
+        set(state::gradient, concentration_source(setting, point, v.global(global::potential)));
         set(state::mass, point.c.value);
     }
     std::array<Number, unknowns> by_x;
@@ -210,6 +216,7 @@ PointOfShape point_of_shape(const StationaryCase& stationary, double a, const Ei
     point.cosine = y(state::cosine);
     point.sine = y(state::hoop) * point.r;
     point.c = material.c.value;
+    point.squared_gradient = y(state::r_squared) * material.c.slope * material.c.slope;
     point.total_curvature = material.elastic.curvature;
     point.energy_density = material.elastic.density;
     point.tension = tension(material, loads, y);

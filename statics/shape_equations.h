@@ -34,7 +34,8 @@ inline constexpr Eigen::Index equilibrium_states = 9;
 /// Indices of the global unknowns.
 namespace global {
 inline constexpr Eigen::Index area = 0;       // E, membrane area over 2π, nm²
-inline constexpr Eigen::Index potential = 1;  // μ of the molecules: Cahn-Hilliard in 1/nm; Fickian: the concentration
+inline constexpr Eigen::Index potential = 1;  // μ of the molecules: Cahn-Hilliard in 1/nm, over σ̂ where coupled;
+                                              // Fickian: the concentration
 }  // namespace global
 
 /// A case and its energy: that of its parameters unless another one is given.
@@ -57,10 +58,11 @@ struct StationaryCase {
 struct PointOfShape {
     double r, z, cosine, sine;
     double c;
-    double total_curvature;  // κ, 1/nm
-    double tension;          // λ, pN/nm: the first integral
-    double energy_density;   // e, pN/nm
-    double shear;            // dm/ds, pN/nm
+    double squared_gradient;  // |∇_Γ c|², 1/nm²
+    double total_curvature;   // κ, 1/nm
+    double tension;           // λ, pN/nm: the first integral
+    double energy_density;    // e, pN/nm
+    double shear;             // dm/ds, pN/nm
 };
 
 /// y: the states at material label a (nm²).

@@ -24,6 +24,7 @@ ShapeIntegrals shape_integrals(const StationaryCase& stationary, const Piecewise
                                const GaussRule& rule) {
     constexpr double two_pi = 2 * std::numbers::pi;
     const Loads loads = loads_of(stationary.parameters);
+    const MembraneEnergy edge = line_energy(stationary.parameters);
     const double rim = stationary.parameters.domain.membrane_height;
     const auto over = [&](const auto& function) { return two_pi * integral(solution, rule, function); };
     return {over([&](double a, const Eigen::VectorXd& y) { return point_of_shape(stationary, a, y).energy_density; }),
@@ -31,6 +32,10 @@ ShapeIntegrals shape_integrals(const StationaryCase& stationary, const Piecewise
             over([&](double, const Eigen::VectorXd& y) { return (y(state::height) - rim) * y(state::cosine); }),
             over([&](double a, const Eigen::VectorXd& y) {
                 return (y(state::height) - rim) * loads.force_share(two_pi * a);
+            }),
+            over([&](double a, const Eigen::VectorXd& y) {
+                const PointOfShape point = point_of_shape(stationary, a, y);
+                return edge.density(point.total_curvature, point.c, point.squared_gradient).value;
             })};
 }
 

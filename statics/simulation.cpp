@@ -34,6 +34,7 @@ std::vector<std::string> continuable(const Parameters& parameters) {
                                        "domain.radius",          "membrane.rim_tension",
                                        "membrane.pole_force",    "fluid.pressure_difference"};
     keys.insert(keys.end(), more.begin(), more.end());
+    if (energetically_coupled(parameters.molecules)) keys.emplace_back("molecules.line_energy");
     return keys;
 }
 
@@ -58,10 +59,12 @@ Json write_state(StateWriter& writer, const Parameters& named, const Parameters&
         curve, BendingModel(solved.membrane),
         {named.molecules.patch_radius, named.membrane.spontaneous_curvature, curve.s.back(), apex_height,
          curve.lambda.front(), point.arc_length, static_cast<double>(point.folds_before), loads.rim_tension,
-         loads.pressure, loads.pole_force, integrals.extension, integrals.potential(loads)});
+         loads.pressure, loads.pole_force, integrals.extension, integrals.potential(loads), integrals.edge});
     figures["apex_height_nm"] = apex_height;
     figures["tension_at_axis_pN_per_nm"] = curve.lambda.front();
-    if (!loads.none()) figures["potential_pN_nm"] = integrals.potential(loads);
+    const bool coupled = energetically_coupled(solved.molecules);
+    if (coupled) figures["line_energy_pN_nm"] = integrals.edge;
+    if (coupled || !loads.none()) figures["potential_pN_nm"] = integrals.potential(loads);
     if (loads.pole_force != 0) figures["pole_extension_nm"] = integrals.extension;
     return figures;
 }
@@ -137,17 +140,18 @@ VesicleFamily parse_family(const std::string& text) {
 }
 
 EngineIdentity identity(const Parameters& parameters) {
-    return {"statics",
-            {{"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}},
-            is_vesicle(parameters)
-                ? vesicle_columns()
-                : std::vector<std::string>{"patch_radius_nm", "spontaneous_curvature_per_nm", "curve_length_nm",
-                                           "apex_height_nm", "tension_at_axis_pN_per_nm", "branch_length",
-                                           "folds_passed", "rim_tension_pN_per_nm", "pressure_difference_pN_per_nm2",
-                                           "pole_force_pN", "pole_extension_nm", "potential_pN_nm"},
-            1,
-            1,
-            RowOrder::along_a_branch};
+    return {
+        "statics",
+        {{"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}},
+        is_vesicle(parameters)
+            ? vesicle_columns()
+            : std::vector<std::string>{"patch_radius_nm", "spontaneous_curvature_per_nm", "curve_length_nm",
+                                       "apex_height_nm", "tension_at_axis_pN_per_nm", "branch_length", "folds_passed",
+                                       "rim_tension_pN_per_nm", "pressure_difference_pN_per_nm2", "pole_force_pN",
+                                       "pole_extension_nm", "potential_pN_nm", "line_energy_pN_nm"},
+        1,
+        1,
+        RowOrder::along_a_branch};
 }
 
 void require_stationary_model(const Parameters& parameters, const Request& request) {

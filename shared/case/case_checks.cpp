@@ -81,6 +81,22 @@ void check_loads(const Parameters& p, const Require& require) {
                         loads.rim_tension, buckling));
 }
 
+/// Molecules that bending and line energy drive. A key that nothing reads is a mistake.
+void check_molecules(const Parameters& p, const Require& require) {
+    const MoleculeParameters& m = p.molecules;
+    const bool coupled = m.coupling == Coupling::energetic;
+    require(coupled || m.line_energy == 0,
+            fmt::format("molecules.line_energy = {:g} pN needs molecules.coupling = \"energetic\"", m.line_energy));
+    if (coupled) {
+        const std::string energetic = "molecules.coupling = \"energetic\" needs ";
+        require(m.line_energy > 0, energetic + "molecules.line_energy > 0: without it no edge of the coat is stable");
+        require(m.transport != Transport::fickian,
+                energetic + "molecules.transport = \"cahn-hilliard\" or \"advection\": Fick's law has no line energy");
+        require(p.membrane.inextensible && p.fluid.dynamics == Dynamics::flow,
+                energetic + "membrane.inextensible = true and fluid.dynamics = \"flow\"");
+    }
+}
+
 void check_times(const Parameters& p, const Require& require) {
     require(p.time.initial_step <= p.time.max_step,
             fmt::format("time.initial_step = {} µs must not exceed time.max_step = {} µs", p.time.initial_step,
@@ -102,6 +118,7 @@ void check_case(const Parameters& p, const std::string& where) {
     };
     if (p.domain.kind == DomainKind::box) check_box(p, require);
     check_loads(p, require);
+    check_molecules(p, require);
     check_times(p, require);
 }
 

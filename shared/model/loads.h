@@ -37,8 +37,11 @@ struct Loads {
     }
 };
 
-/// Throws InputError where an engine does not have the loads that a case asks for.
+/// Throws InputError where an engine has neither the loads nor the coupling of molecules that a case asks for.
 void require_no_loads(const Parameters& parameters, const std::string& engine);
+
+/// The same for an engine that has the loads.
+void require_no_coupling(const Parameters& parameters, const std::string& engine);
 
 [[nodiscard]] inline Loads loads_of(const Parameters& parameters) {
     return {parameters.membrane.rim_tension, parameters.fluid.pressure_difference, parameters.membrane.pole_force,

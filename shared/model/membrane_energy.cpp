@@ -6,12 +6,27 @@
 #include <limits>
 
 #include "shared/model/bending_term.h"
+#include "shared/model/line_energy_term.h"
 #include "shared/support/error.h"
 
 namespace endoflow {
 
-MembraneEnergy membrane_energy(const Parameters& parameters) {
+bool energetically_coupled(const MoleculeParameters& molecules) {
+    return molecules.coupling == Coupling::energetic;
+}
+
+MembraneEnergy bending_energy(const Parameters& parameters) {
     return MembraneEnergy().add(BendingTerm{BendingModel(parameters.membrane)});
+}
+
+MembraneEnergy line_energy(const Parameters& parameters) {
+    const MoleculeParameters& molecules = parameters.molecules;
+    if (!energetically_coupled(molecules)) return {};
+    return MembraneEnergy().add(LineEnergyTerm{molecules.line_energy, molecules.interface_width});
+}
+
+MembraneEnergy membrane_energy(const Parameters& parameters) {
+    return bending_energy(parameters).add(line_energy(parameters));
 }
 
 LocalJet MembraneEnergy::density(double curvature, double concentration, double squared_gradient) const {

@@ -37,6 +37,12 @@ class MembraneEnergy {
         return *this;
     }
 
+    /// Adds another energy's terms.
+    MembraneEnergy& add(const MembraneEnergy& other) {
+        terms_.insert(terms_.end(), other.terms_.begin(), other.terms_.end());
+        return *this;
+    }
+
     /// e with its first and second derivatives by κ, c and |∇_Γ c|².
     [[nodiscard]] LocalJet density(double curvature, double concentration, double squared_gradient) const;
 
@@ -49,8 +55,15 @@ class MembraneEnergy {
     std::vector<std::function<LocalJet(const LocalShape<LocalJet>&)>> terms_;
 };
 
-/// The energy of a case: the list of the terms there are.
+/// The energy of a case, E + E_c: the list of the terms there are.
 [[nodiscard]] MembraneEnergy membrane_energy(const Parameters& parameters);
+
+/// Its parts alone: E of bending (S), and E_c of the coat's edge, which has no terms without energetic coupling.
+[[nodiscard]] MembraneEnergy bending_energy(const Parameters& parameters);
+[[nodiscard]] MembraneEnergy line_energy(const Parameters& parameters);
+
+/// Whether bending and line energy drive the molecules and the line energy the membrane.
+[[nodiscard]] bool energetically_coupled(const MoleculeParameters& molecules);
 
 /// The membrane's elastic state at a moment m = ∂e/∂κ.
 template <class Number>

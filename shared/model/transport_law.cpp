@@ -1,6 +1,7 @@
 #include "shared/model/transport_law.h"
 
 #include "shared/model/double_well.h"
+#include "shared/model/membrane_energy.h"
 #include "shared/support/error.h"
 
 namespace endoflow {
@@ -22,11 +23,11 @@ ValueAndDerivatives separating(double c, double width) {
 TransportLaw transport_law(const MoleculeParameters& molecules) {
     switch (molecules.transport) {
         case Transport::cahn_hilliard:  // (23), (24)
-            return {molecules.mobility, molecules.interface_width, separating};
+            return {molecules.mobility, molecules.interface_width, separating, energetically_coupled(molecules)};
         case Transport::fickian:  // (22)
-            return {molecules.diffusivity, 0, concentration_itself};
+            return {molecules.diffusivity, 0, concentration_itself, false};
         case Transport::advection:  // (14)
-            return {0, 0, concentration_itself};
+            return {0, 0, concentration_itself, false};
     }
     throw InputError("molecules.transport: not a law");
 }

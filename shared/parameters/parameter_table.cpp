@@ -32,6 +32,10 @@ struct EnumNames<Transport> {
     static constexpr std::array names{"cahn-hilliard", "fickian", "advection"};
 };
 template <>
+struct EnumNames<Coupling> {
+    static constexpr std::array names{"none", "energetic"};
+};
+template <>
 struct EnumNames<PhaseFieldScheme> {
     static constexpr std::array names{"paper", "production"};
 };
@@ -188,6 +192,12 @@ std::vector<ParameterRow> molecule_rows() {
             "D_n",
             "diffusivity across the layer of (39) (phase-field engine, fickian and advection; scheme production: "
             "at least 1.1e5 nm^5/µs / epsilon^3)"),
+        row("molecules", "coupling", &P::molecules, &S::coupling, "", any(), "",
+            "none: the molecules know nothing of bending and their edge exerts no force (the paper); energetic: they "
+            "move down the variation of bending and line energy, whose stress the membrane feels"),
+        row("molecules", "line_energy", &P::molecules, &S::line_energy, "pN", at_least(0, 1e6), "σ̂",
+            "with coupling = energetic: the coat's edge costs σ̂ √2/6 per length; the molecules' mobility is then "
+            "molecules.mobility per pN"),
     };
 }
 

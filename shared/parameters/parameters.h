@@ -12,6 +12,7 @@ enum class Dynamics { flow, geometric };
 enum class CurvatureConvention { as_printed, consistent };
 enum class ConstitutiveLaw { linear, coarse_grained, lumped };
 enum class Transport { cahn_hilliard, fickian, advection };
+enum class Coupling { none, energetic };
 enum class PhaseFieldScheme { paper, production };
 enum class ViscosityMean { arithmetic, harmonic };
 
@@ -60,6 +61,8 @@ struct MoleculeParameters {
     double mobility = 64e3;
     double interface_width = 1.2;
     double normal_diffusivity = 1600;
+    Coupling coupling = Coupling::none;
+    double line_energy = 0;
 };
 
 /// What scheme `paper` alone reads.

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "shared/model/bending_term.h"
+#include "shared/model/initial_condition.h"
+#include "shared/model/loads.h"
 #include "shared/model/membrane_energy.h"
 #include "shared/support/error.h"
 
@@ -64,7 +66,11 @@ TEST_CASE("an energy's derivatives agree with finite differences, those of its L
     for (const auto law : {ConstitutiveLaw::linear, ConstitutiveLaw::coarse_grained, ConstitutiveLaw::lumped}) {
         Parameters parameters;
         parameters.membrane.constitutive_law = law;
-        for (const MembraneEnergy& energy : {membrane_energy(parameters), stiffening_membrane()}) {
+        Parameters coupled = parameters;
+        coupled.molecules.coupling = Coupling::energetic;
+        coupled.molecules.line_energy = 20;
+        for (const MembraneEnergy& energy :
+             {membrane_energy(parameters), membrane_energy(coupled), stiffening_membrane()}) {
             check_jet([&](const Point& x) { return energy.density(x[0], x[1], x[2]); }, {0.11, 0.4, 0.02});
             check_jet([&](const Point& x) { return energy.conjugate(x[0], x[1], x[2]); }, {7.0, 0.4, 0.02});
         }
@@ -99,4 +105,31 @@ TEST_CASE("an energy whose moment does not determine the curvature is an error w
     const MembraneEnergy energy = MembraneEnergy().add(LinearTerm{});
     CHECK_THROWS_AS(energy.conjugate(1, 0.5, 0), SolverError);
     CHECK(std::isnan(energy.conjugate(std::nan(""), 0.5, 0).value));
+}
+
+TEST_CASE("a flat edge costs σ̂ √2/6 per length") {
+    Parameters parameters;
+    parameters.molecules.coupling = Coupling::energetic;
+    parameters.molecules.line_energy = 20;
+    const double width = parameters.molecules.interface_width, middle = parameters.molecules.patch_radius;
+    const MembraneEnergy edge = line_energy(parameters);
+    double cost = 0;
+    constexpr double step = 0.01;  // the trapezoidal rule is exact to round-off for a function that decays at both ends
+    for (int i = -3000; i <= 3000; ++i) {
+        const double x = middle + step * i;
+        const double c = initial_concentration(parameters.molecules, x);
+        const double slope = std::sqrt(2.0) * c * (1 - c) / width;
+        cost += step * edge.density(0.1, c, slope * slope).value;
+    }
+    CHECK(cost == Approx(20 * std::sqrt(2.0) / 6).epsilon(1e-12));
+    CHECK(line_energy(Parameters{}).density(0.1, 0.5, 0.3).value == 0);  // without coupling
+}
+
+TEST_CASE("an engine without energetic coupling refuses it") {
+    Parameters parameters;
+    CHECK_NOTHROW(require_no_loads(parameters, "phase-field"));
+    parameters.molecules.coupling = Coupling::energetic;
+    parameters.molecules.line_energy = 20;
+    CHECK_THROWS_AS(require_no_loads(parameters, "phase-field"), InputError);
+    CHECK_THROWS_AS(require_no_coupling(parameters, "boundary-integral"), InputError);
 }

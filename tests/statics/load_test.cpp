@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "shared/parameters/parameter_table.h"
+#include "statics/sampled_curve.h"
 #include "statics/shape_integrals.h"
 #include "statics/stationary_state.h"
 
@@ -78,6 +79,10 @@ Snap growing_coat(double tension, const Resolution& resolution) {
 
 TEST_CASE("dG/dσ = A, dG/dp = −V, dG/dF = −z̄", "[statics][loads]") {
     Parameters parameters;
+    if (GENERATE(false, true)) {
+        parameters.molecules.coupling = Coupling::energetic;
+        parameters.molecules.line_energy = 20;
+    }
     parameters.molecules.patch_radius = 20;
     // Molecules that diffuse by a law without bending in it do not make G stationary.
     parameters.molecules.transport = Transport::advection;
@@ -94,6 +99,56 @@ TEST_CASE("dG/dσ = A, dG/dp = −V, dG/dF = −z̄", "[statics][loads]") {
     CHECK(by_force == Approx(-here.extension).epsilon(1e-8));
     CHECK(by_pressure == Approx(-here.volume).epsilon(1e-8));
     CHECK(by_tension == Approx(here.area).epsilon(1e-8));
+}
+
+TEST_CASE("where coupled molecules move, dG = A dσ − V dp − z̄ dF − μ c(rim) dA", "[statics][loads]") {
+    // The shape and c make G stationary but for the membrane that flows in: none of the molecules that are at the rim
+    // come with it, so that each new area takes μ c(rim) out of the coat.
+    Parameters parameters;
+    parameters.molecules.patch_radius = 20;
+    parameters.molecules.coupling = Coupling::energetic;
+    parameters.molecules.line_energy = 40;
+    parameters.membrane.spontaneous_curvature = 0.03;
+    parameters.membrane.rim_tension = 0.05;
+    parameters.fluid.pressure_difference = 1e-4;
+    parameters.membrane.pole_force = 3;
+    const auto state = find_stationary_state(parameters);
+    const ShapeIntegrals here = shape_integrals(parameters, state.point.solution, default_rule);
+    REQUIRE(here.extension > 5);
+    const auto& solution = state.point.solution;
+    const auto last = solution.nodes.col(solution.nodes.cols() - 1);
+    const double brought = parameters.molecules.line_energy * solution.globals(global::potential) *
+                           last(state::concentration);  // μ c(rim), pN/nm
+    REQUIRE(std::abs(brought) > 1e-4);                  // of 0.05 pN/nm
+    const auto check = [&](const std::string& key, double step, double expected) {
+        const double value = std::get<double>(find_parameter(key)->get(parameters));
+        const auto area = [&](double of) { return at(state, key, of).area; };
+        const double area_slope =
+            (8 * (area(value + step) - area(value - step)) - (area(value + 2 * step) - area(value - 2 * step))) /
+            (12 * step);
+        CHECK(slope_of_potential(state, key, step) + brought * area_slope == Approx(expected).epsilon(1e-8));
+    };
+    check("membrane.pole_force", 0.05, -here.extension);
+    check("fluid.pressure_difference", 1e-5, -here.volume);
+    check("membrane.rim_tension", 1e-3, here.area);
+}
+
+TEST_CASE("coupled molecules in equilibrium: λ + μ c is the same everywhere", "[statics][loads]") {
+    // Along the membrane ∇λ = −(δE/δc) ∇c, and δE/δc = μ.
+    Parameters parameters;
+    parameters.molecules.patch_radius = 20;
+    parameters.molecules.coupling = Coupling::energetic;
+    parameters.molecules.line_energy = 40;
+    parameters.membrane.spontaneous_curvature = 0.03;
+    const auto state = find_stationary_state(parameters);
+    const double potential = parameters.molecules.line_energy * state.point.solution.globals(global::potential);
+    const MembraneCurve curve = sampled_curve(parameters, state.point.solution, default_rule, 201);
+    const double at_rim = curve.lambda.back() + potential * curve.c.back();
+    CHECK(std::abs(curve.lambda.back()) < 1e-10);
+    double worst = 0;
+    for (std::size_t i = 0; i < curve.size(); ++i)
+        worst = std::max(worst, std::abs(curve.lambda[i] + potential * curve.c[i] - at_rim));
+    CHECK(worst < 1e-8 * std::abs(potential));
 }
 
 TEST_CASE("A tube is pulled at F = 2π √(2βσ), after an overshoot that is larger in a small box", "[statics][loads]") {
