@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "command_line.h"
+#include "launcher.h"
 #include "laws.h"
 #include "locations.h"
 #include "process.h"
@@ -35,6 +36,7 @@ const std::vector<std::string> scripts{"compare", "converge", "sweep", "reproduc
 constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, computed by two independent engines
 
   endoflow run boundary-integral CASE.toml [-o DIR] [--set section.key=value]... [--until T] [--restart]
+  endoflow run ENGINE CASE.toml --certify                  the run and more accurate ones: value ± error
   endoflow run phase-field       CASE.toml [the same]     (mpirun -n N endoflow run phase-field ... uses N processes)
   endoflow compare DIR_A DIR_B [-o DIR]                    two runs: metrics.json, plots, report.html
   endoflow converge CASE.toml --epsilon E1,E2,...          phase field against sharp membrane as the layer gets thin
@@ -70,6 +72,12 @@ int run(int argc, char** argv) {
     }
     if (engine != engines[0] && engine != engines[1])
         throw InputError(fmt::format("command line: unknown engine '{}'; {}", engine, did_you_mean(engine, engines)));
+    if (std::find(argv + 2, argv + argc, std::string("--certify")) != argv + argc) {
+        require_one_process("endoflow run --certify", "; --processes N gives each run of the phase field N processes");
+        std::vector<std::string> arguments{"certify"};
+        arguments.insert(arguments.end(), argv + 1, argv + argc);
+        become_python("comparisons", arguments);
+    }
     // Parallelism is between processes there; threads of the linear algebra would only fight for the cores.
     if (engine == engines[1]) ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
     become_program("endoflow-" + engine, {argv + 2, argv + argc});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -125,6 +126,20 @@ std::string basis(const Json& record) {
                        parameters.at("membrane").at("curvature_convention").get<std::string>(), resolution);
 }
 
+/// Value ± error of what `--certify` looked at; the error has one digit, the value as many.
+std::string certified(const Json& record) {
+    if (!record.contains("certificate")) return "";
+    std::string text;
+    for (const auto& [name, entry] : record.at("certificate").at("values").items()) {
+        const double value = entry.at("value").get<double>(), error = entry.at("error").get<double>();
+        constexpr int exact = 8;
+        const int decimals = error > 0 ? std::max(0, -static_cast<int>(std::floor(std::log10(error)))) : exact;
+        text += fmt::format("  certified: {} {:.{}f} ± {:.{}f} {}\n", entry.at("title").get<std::string>(), value,
+                            decimals, error, decimals, entry.at("unit").get<std::string>());
+    }
+    return text;
+}
+
 /// One line for each quantity that left the bounds of an accurate run.
 std::string alarms(const Json& record) {
     if (!record.contains("alarms")) return "";
@@ -153,7 +168,7 @@ std::string describe(const Json& record, const std::filesystem::path& directory)
     text += basis(record);
     for (const auto& [name, event] : record.at("events").items())
         text += fmt::format("  event: {} at t = {:.5g} µs\n", name, event.at("time_us").get<double>());
-    return text + alarms(record);
+    return text + certified(record) + alarms(record);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 from comparisons.drawing import style
 from comparisons.measures.basis import basis
+from comparisons.measures.certificate import in_words
 from comparisons.measures.metrics import flat_parameters
 from comparisons.page import report
 from comparisons.page.report import escaped, figures, quantity, setting
@@ -13,7 +14,9 @@ def run_html(run, drawn, directory):
     """The page of an endoflow.Run; drawn: {plot: title}, written into directory (Path)."""
     plots = "".join(report.plot(directory / f"{name}.svg", title) for name, title in drawn.items())
     basics = report.table(["", ""], [("", [escaped(what), escaped(value)]) for what, value in basis(run)], "text")
+    certified = certificate(run)
     sections = [
+        *([("Certified", certified)] if certified else []),
         ("What the numbers rest on", basics),
         ("Plots", plots),
         ("Last row of history.csv", last_row(run)),
@@ -49,6 +52,21 @@ def cards(run):
     return found
 
 
+def certificate(run):
+    """What `--certify` found: value ± error; "" for a run without a certificate."""
+    found = run.record.get("certificate", {}).get("values", {})
+    rows = [
+        ("", [escaped(entry["title"]), escaped(in_words(entry)), escaped(parts_in_words(entry))])
+        for entry in found.values()
+    ]
+    return report.table(["", "value", "from"], rows, "text") if rows else ""
+
+
+def parts_in_words(entry):
+    """Where the error comes from."""
+    return ", ".join(f"{part} {error:.2g}" for part, error in entry["parts"].items())
+
+
 def last_row(run):
     """Every column's last value with its unit."""
     rows = []
@@ -61,7 +79,7 @@ def last_row(run):
 
 def provenance(run):
     """Everything else in run.json."""
-    record = {key: value for key, value in run.record.items() if key not in ("parameters", "alarms")}
+    record = {key: value for key, value in run.record.items() if key not in ("parameters", "alarms", "certificate")}
     flat = report.flattened(record)
     return report.table(
         ["", ""], [("", [f"<code>{escaped(key)}</code>", setting(value, 6)]) for key, value in flat.items()], "text"

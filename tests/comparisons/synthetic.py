@@ -153,9 +153,10 @@ def parameters(**changes):
             "curvature_convention": "as-printed",
         },
         "molecules": {"patch_radius": PATCH_RADIUS, "transport": "cahn-hilliard", "interface_width": INTERFACE_WIDTH},
-        "phase_field": {"epsilon": 1.2},
+        "phase_field": {"scheme": "production", "epsilon": 1.2},
         "boundary_integral": {"elements": 32},
         "time": {"end": 1.0, "tolerance": 1e-4},
+        "output": {"shape_interval": 0.25, "field_interval": 0.0},
     }
     for key, value in changes.items():
         section, name = key.split("__")
