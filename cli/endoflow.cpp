@@ -36,8 +36,8 @@ const std::vector<std::string> scripts{"compare", "converge", "sweep", "reproduc
 constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, computed by two independent engines
 
   endoflow run boundary-integral CASE.toml [-o DIR] [--set section.key=value]... [--until T] [--restart]
-  endoflow run ENGINE CASE.toml --certify                  the run and more accurate ones: value ± error
   endoflow run phase-field       CASE.toml [the same]     (mpirun -n N endoflow run phase-field ... uses N processes)
+  endoflow run ENGINE CASE.toml --certify                  the run and more accurate ones: value ± error
   endoflow compare DIR_A DIR_B [-o DIR]                    two runs: metrics.json, plots, report.html
   endoflow converge CASE.toml --epsilon E1,E2,...          phase field against sharp membrane as the layer gets thin
   endoflow sweep CASE.toml --vary KEY=FIRST:LAST:STEP --engine ENGINE [-o DIR] [--jobs N]      many runs of one case
