@@ -16,7 +16,7 @@ GROUPS = {
     ),
     "Results": (
         "results/standard-case", "results/sharp-refinement", "results/smooth-case", "results/patch-radii", "results/scheme-paper",
-        "results/paper",
+        "results/inference", "results/paper",
     ),
     "Development": ("architecture", "developer-guide", "extending", "roadmap"),
 }  # fmt: skip
