@@ -49,6 +49,7 @@ class Browser:
 
     def _start(self, width, height):
         """Launch the browser, which reads commands from descriptor 3 and writes answers to descriptor 4."""
+        taken = [os.open(os.devnull, os.O_RDONLY) for _ in range(2)]  # 3 and 4, if free: only open ones can be passed on
         command_read, self._commands = os.pipe()
         self._answers, answer_write = os.pipe()
         ends = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (command_read, answer_write)]
@@ -61,7 +62,7 @@ class Browser:
             stderr=subprocess.DEVNULL,
             start_new_session=True,
         )
-        for end in (command_read, answer_write, *ends):
+        for end in (command_read, answer_write, *ends, *taken):
             os.close(end)
         self._session = None
 
