@@ -14,7 +14,8 @@ const std::vector<HistoryColumn>& common_history_columns() {
     static const std::vector<HistoryColumn> columns{
         {"time_us", "time at the end of the step", &R::time_us},
         {"step_us", "length of the step", &R::step_us},
-        {"neck_radius_nm", "narrowest place between the bud's widest place and the rim; empty without a neck", &R::neck_radius_nm},
+        {"neck_radius_nm", "narrowest place between the bud's widest place and the rim; empty without a neck",
+         &R::neck_radius_nm},
         {"bud_diameter_nm", "lateral diameter of the bud above the neck; empty without a neck", &R::bud_diameter_nm},
         {"bud_height_nm", "highest point above the rim", &R::bud_height_nm},
         {"membrane_area_nm2", "area inside the domain; grows as membrane flows in", &R::membrane_area_nm2},
