@@ -271,6 +271,8 @@ std::vector<ParameterRow> production_scheme_rows() {
             "ζ", "rate at which accumulated area strain s - 1 is removed"),
         row("phase_field.production", "stretching_alignment", production, &S::stretching_alignment, "nm^2/µs",
             positive(1e12), "", "keeps s constant across the layer"),
+        row("phase_field.production", "thinning", production, &S::thinning, "domain.radius", at_least(0, 10), "ρ₀",
+            "where a radius of curvature of the membrane is below it the layer is thinner in proportion; 0 = uniform"),
     };
 }
 

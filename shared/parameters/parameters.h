@@ -85,6 +85,7 @@ struct ProductionSchemeParameters {
     double tension_leak = 1e-2;
     double strain_relaxation = 100;
     double stretching_alignment = 2e5;
+    double thinning = 0.175;
 };
 
 struct PhaseFieldParameters {

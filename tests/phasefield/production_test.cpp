@@ -74,6 +74,7 @@ double change_of_stretch(const Parameters& p, double psi, double motion) {
     const auto profile = [&](double at) { return layer_profile(at, p.phase_field.epsilon); };
     const auto row = [&](double z) {
         PointPast past;
+        past.thickness.value = p.phase_field.epsilon;
         past.normal = past.molecules_normal = {0, -1};
         for (std::size_t j = 0; j < 3; ++j) {
             const double before = -z - static_cast<double>(j + 1) * motion;
@@ -104,6 +105,7 @@ TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
                 p.phase_field.production.stretching_alignment = 10;
             const BendingModel model(p.membrane);
             PointPast past;
+            past.thickness = {p.phase_field.epsilon, 0.05, -0.08};
             past.normal = past.molecules_normal = {0.5, 0.6};
             const GradientChange change{0.3, -0.2};
             past.slope_r = 0.1;
@@ -138,21 +140,24 @@ TEST_CASE("forces are the variation of the energy", "[production]") {
     const BendingModel model(p.membrane);
     const double epsilon = p.phase_field.epsilon,
                  compliance = moment_alignment * epsilon * epsilon / model.stiffness(0).value;
+    const PointThickness thickness{epsilon, 0.05, -0.08};
     // The integrand of the two-field energy that add_bending() documents.
     const auto energy = [&](const Fields<double>& x) {
         const auto &psi = x[distance], &b = x[Field::moment];
         const auto layer = layer_profile(psi.value, epsilon);
-        const auto weight = energy_weight(layer, epsilon);
+        const auto weight = energy_weight(layer, psi.value, epsilon);
         const auto m = stiffness_of(x[molecule_density].value, model);
         const double squared = psi.r * psi.r + psi.z * psi.z;
         return weight.value * (m.curvature * b.value - 0.5 * b.value * b.value / m.beta - psi.r * b.r - psi.z * b.z) -
                0.5 * weight.first * (1 + squared) * b.value -
+               weight.thickness * b.value * (thickness.r * psi.r + thickness.z * psi.z) -
                0.5 * compliance * weight.value * std::pow(psi.r * b.r + psi.z * b.z, 2) -
                0.5 * moment_floor / model.stiffness(0).value * (b.r * b.r + b.z * b.z);
     };
     auto x = some_point();
     x[normal_force] = {};  // its own terms are not the energy's
     PointPast past;
+    past.thickness = thickness;
     past.normal = past.molecules_normal = {0.6, 0.8};
     auto rows = point_equations(x, 7.0, past, {}, numbers(p), model);
     for (const Field field : {distance, Field::moment})
@@ -176,6 +181,7 @@ TEST_CASE("what keeps G constant along the normal exerts no net force", "[produc
     x[distance] = {0.4, 0.5, -0.7};
     x[normal_force] = {0.3, 0.2, -0.6};
     PointPast past;
+    past.thickness.value = p.phase_field.epsilon;
     past.normal = past.molecules_normal = {0.6, -0.8};
     const double chi_r = 2e-5, chi_z = 3e-5;  // so small that the force does not fade: by 4e-8 of itself
     const GradientChange change{0, past.normal.r * chi_r + past.normal.z * chi_z};
@@ -230,14 +236,16 @@ TEST_CASE("a plane membrane does not stretch however far it moves in a step", "[
 TEST_CASE("the membrane's weight leaves no excess shear in the layer", "[production]") {
     FluidParameters fluid;
     fluid.viscosity_extracellular = 1e-3;
-    for (const double ratio : {0.1, 1.0, 1.5, 5.0, 10.0})
+    for (const double ratio : {0.1, 1.0, 1.0005, 1.5, 5.0, 10.0, 30.0, 44.0})
         for (const ViscosityMean mean : {ViscosityMean::arithmetic, ViscosityMean::harmonic}) {
             fluid.viscosity_intracellular = ratio * 1e-3;
             const MembraneWeight weight = membrane_weight(fluid, mean);
             CHECK(membrane_indicator(1.0, weight) == Approx(0.5).epsilon(1e-14));  // ∫δ_m dψ = 1
             // Harmonic means of ratios above 7 are bounded by the smallest fluidity.
             if (mean == ViscosityMean::harmonic && std::abs(std::log(ratio)) > std::log(6)) continue;
-            CHECK(excess_shear(weight, fluid, mean) == Approx(0).margin(1e-9));  // a root found to 1e-12
+            const ExcessShear excess = excess_shear(weight, fluid, mean);
+            CHECK(excess.sum == Approx(0).margin(1e-9));  // roots found to 1e-11
+            if (mean == ViscosityMean::arithmetic) CHECK(excess.moment == Approx(0).margin(1e-9));
         }
     // δ²/(δ + f) by the midpoint rule in ψ/(√2 ε) on a thousand points, the accuracy of which is round-off here.
     double kept = 0;
@@ -246,14 +254,14 @@ TEST_CASE("the membrane's weight leaves no excess shear in the layer", "[product
         kept += 0.02 * 0.75 * well * well / (well + tail_cut);
     }
     CHECK(cut_norm({}) * kept == Approx(1).epsilon(1e-10));
-    // Between fluids of any ratio no viscosity is below half the smaller one.
-    for (const double ratio : {1e-3, 100.0, 1e3}) {
+    // Between fluids of any ratio the viscosity stays above a fifth of the smaller one.
+    for (const double ratio : {1e-3, 44.0, 60.0, 100.0, 1e3}) {
         fluid.viscosity_intracellular = ratio * 1e-3;
         const auto weight = membrane_weight(fluid, ViscosityMean::arithmetic);
         double smallest = 1;
         for (int i = -1000; i <= 1000; ++i)
             smallest = std::min(smallest, layer_viscosity(1e-3 * i, fluid, weight, ViscosityMean::arithmetic));
-        CHECK(smallest >= 0.4999e-3 * std::min(1.0, ratio));
+        CHECK(smallest >= 0.1999e-3 * std::min(1.0, ratio));
     }
 }
 
@@ -323,10 +331,10 @@ TEST_CASE("the membrane is known at any time of the last step", "[production]") 
 }
 
 TEST_CASE("the flow's first volume rate hardly depends on the layer's thickness", "[production]") {
-    // The same case in the boundary-integral engine, one step of 1e-7 µs. Measured errors: 8.6e-4 at ε = 4.8 nm and
-    // 4.1e-4 at 2.4 nm; with δ instead of δ_m as the membrane's weight they are some per cent.
+    // The same case in the boundary-integral engine, one step of 1e-7 µs. Measured errors: 2.5e-3 at ε = 4.8 nm and
+    // less than a third of that at 2.4 nm; with δ instead of δ_m as the membrane's weight they are some per cent.
     constexpr double sharp = 4.2811e5;
-    CHECK(first_volume_rate(4.8, 1.25) == Approx(sharp).epsilon(1.5e-3));
+    CHECK(first_volume_rate(4.8, 1.25) == Approx(sharp).epsilon(3e-3));
     CHECK(first_volume_rate(2.4, 1.25) == Approx(sharp).epsilon(8e-4));
     // The cells that a run chooses, 1.4 ε: measured 1.3e-3, by the Gauss points; one less per direction gives 1e-2.
     CHECK(first_volume_rate(1.2, 5.0 / 3) == Approx(sharp).epsilon(3e-3));

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <utility>
 
 #include "phasefield/schemes/production/refinement.h"
 
@@ -33,6 +34,7 @@ Parameters with_cells() {
     Parameters p;
     p.phase_field.cell_size = cell_size;
     p.molecules.interface_width = 10;  // no finer cells for the patch's edge
+    p.phase_field.production.thinning = 0;
     return p;
 }
 
@@ -58,6 +60,18 @@ TEST_CASE("cells are a quarter of the neck's radius and no finer at the bud's ti
     }
     CHECK(wanted_size(refined_bands(bud_on_neck(8.5), p), p, 8.5, 60) == cell_size);
     CHECK(wanted_size(refined_bands(bud_on_neck(1.0), p), p, 1, 60) == 0.25 * cell_size);
+}
+
+TEST_CASE("cells are finer where the layer is thinner", "[refinement]") {
+    // ε is in proportion to the neck's radius, 14 nm for ε₀; a cell may be 1.3 times as many ε wide as elsewhere.
+    Parameters p = with_cells();
+    p.phase_field.production.thinning = 0.175;
+    for (const auto& [neck, halvings] : {std::pair{9.0, 1}, {6.0, 1}, {4.5, 2}, {3.0, 2}}) {
+        CAPTURE(neck);
+        CHECK(wanted_size(refined_bands(bud_on_neck(neck), p), p, neck, 60) <= cell_size * std::exp2(-halvings));
+        CHECK(wanted_size(refined_bands(bud_on_neck(neck), p), p, 0, 120) == cell_size);
+    }
+    CHECK(wanted_size(refined_bands(bud_on_neck(13.0), p), p, 13, 60) == cell_size);
 }
 
 TEST_CASE("cells are finer at the patch's edge alone", "[refinement]") {

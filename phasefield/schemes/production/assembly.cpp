@@ -40,6 +40,7 @@ EquationPattern::EquationPattern(const Parameters& p, const BendingModel& model)
     for (unsigned int f = 0; f < n_fields; ++f) values[f] = {0.31 + 0.05 * f, 0.27 + 0.03 * f, 0.41 - 0.02 * f};
     PointPast past;
     past.normal = past.molecules_normal = {0.6, 0.8};
+    past.thickness = {p.phase_field.epsilon, 0.01, 0.02};
     const auto rows = point_equations(fields_from<FeatureDual>(values), 3.0, past, {0.3, 0.2},
                                       {1.0, p.phase_field, p.fluid, p.molecules, {}}, model);
     for (unsigned int row = 0; row < n_features; ++row)

@@ -41,34 +41,54 @@ Number molecular_energy(const Number& b, const Number& K, const Stiffness<Number
     return b * m.curvature_c + 0.5 * K * K * m.beta_c;
 }
 
+/// What compliance along the normal the last term of the energy below has: D [nm²/(pN nm)].
+inline double moment_compliance(double epsilon, const BendingModel& model) {
+    return moment_alignment * epsilon * epsilon / model.stiffness(0).value;
+}
+inline double moment_smoothing(const BendingModel& model) {
+    return moment_floor / model.stiffness(0).value;
+}
+
+/// The energy below per volume where it is stationary over b, when it is half its part linear in b [pN/nm²].
+inline double moment_energy(const AtPoint<double>& b, const AtPoint<double>& psi, double K, double weight,
+                            double epsilon, const BendingModel& model) {
+    const double slope = psi.r * b.r + psi.z * b.z;
+    return 0.5 * weight * (b.value * K + moment_compliance(epsilon, model) * slope * slope) +
+           0.5 * moment_smoothing(model) * (b.r * b.r + b.z * b.z);
+}
+
 /// The bending energy as a functional of ψ, the moment b and c whose stationary value over b is E:
 ///
 ///   E = ∫ w b h + w (b C − b²/(2 β)) − ½ D w (∇ψ·∇b)² dx,   h = Δψ − w' (1 − |∇ψ|²)/(2w),   w the weight above,
 ///
-/// the Laplacian of ψ integrated by parts. With w = δ this h is the one at the top of this page; with another h a
-/// weight that is cut off exerts a force on curved membranes, one that does not vanish with ε. The last term keeps b
-/// constant along the normal: a sharp membrane has one curvature, not one for each level set. Its derivatives with
-/// respect to b, ψ and c are the rows of b and of the normal force G and the force e ∇c, so that the discrete equations
-/// obey the energy law. G is kept constant along the normal: what varies there is the force that keeps the profile,
-/// which the profile's relaxation takes over. Acting on the fluid it would drive a flow within the layer that the
-/// relaxation undoes all the time. Returns e [pN/nm], cut off in the tails, too.
+/// the Laplacian of ψ integrated by parts, with what w depends on x by ε taken off: b ∂w/∂ε ∇ε·∇ψ. With w = δ this h is
+/// the one at the top of this page; with another h a weight that is cut off exerts a force on curved membranes, one
+/// that does not vanish with ε. The last term keeps b constant along the normal: a sharp membrane has one curvature,
+/// not one for each level set. Its derivatives with respect to b, ψ and c are the rows of b and of the normal force G
+/// and the force e ∇c, so that the discrete equations obey the energy law. G is kept constant along the normal: what
+/// varies there is the force that keeps the profile, which the profile's relaxation takes over. Acting on the fluid it
+/// would drive a flow within the layer that the relaxation undoes all the time. Returns e [pN/nm], cut off in the
+/// tails, too.
 template <class Number>
-Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const BendingModel& model, double epsilon,
+Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const BendingModel& model,
                    const PointPast& past, Fields<Number>& row) {
     const auto &psi = x[distance], &b = x[moment];
     const Stiffness<Number> m = stiffness_of(x[molecule_density].value, model);
-    const EnergyWeight<Number> w = energy_weight(p.layer, epsilon);
+    const EnergyWeight<Number> w = energy_weight(p.layer, psi.value, p.epsilon);
     const Number K = b.value / m.beta, density = 0.5 * K * b.value, mean = 0.5 * (1.0 + p.squared_gradient);
-    const double smoothing = moment_floor / model.stiffness(0).value;
+    const double smoothing = moment_smoothing(model);
     row[moment] = {w.value * (K - m.curvature) + w.first * mean, w.value * psi.r + smoothing * b.r,
                    w.value * psi.z + smoothing * b.z};
-    const Number twist = w.first * b.value;
+    const auto& thickness = past.thickness;
+    const Number thinning = thickness.r * psi.r + thickness.z * psi.z, twist = w.first * b.value;
+    row[moment].value += w.thickness * thinning;
     row[normal_force] = {(p.density + surface_floor) * x[normal_force].value +
                              w.first * (psi.r * b.r + psi.z * b.z - m.curvature * b.value + density) +
-                             w.second * mean * b.value,
-                         w.value * b.r + twist * psi.r, w.value * b.z + twist * psi.z};
-    add_alignment(x[normal_force], past.normal, force_diffusivity(p, epsilon), row[normal_force]);
-    const double compliance = moment_alignment * epsilon * epsilon / model.stiffness(0).value;
+                             w.second * mean * b.value + w.thickness_1 * b.value * thinning,
+                         w.value * b.r + twist * psi.r + (thickness.r * w.thickness) * b.value,
+                         w.value * b.z + twist * psi.z + (thickness.z * w.thickness) * b.value};
+    add_alignment(x[normal_force], past.normal, force_diffusivity(p), row[normal_force]);
+    const double compliance = moment_compliance(p.epsilon, model);
     const Number slope = psi.r * b.r + psi.z * b.z, flux = compliance * w.value * slope;
     row[moment].r += flux * psi.r;
     row[moment].z += flux * psi.z;

@@ -22,7 +22,7 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
     ComponentField old_distance(space, distance, quadrature), predicted_distance(space, distance, quadrature);
     dealii::Vector<double> values(space.element.n_dofs_per_cell());
     SolutionMeasures out{};
-    auto& [integrals, diagnostics, difference] = out;
+    auto& [integrals, diagnostics, difference, layer_motion] = out;
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         const CellBox box = cell_box(cell);
@@ -37,19 +37,27 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
         for (unsigned int q = 0; q < quadrature.size(); ++q) {
             const double r = box.r0 + box.hr * quadrature.point(q)[0];
             const double w = two_pi * quadrature.weight(q) * box.hr * box.hz * r;
-            const auto layer = layer_profile(psi.value[q], numerics.epsilon);
+            const auto& at = quadrature.point(q);
+            const auto [epsilon, epsilon_r, epsilon_z] =
+                step.thickness_at(cell->active_cell_index(), box, at[0], at[1]);
+            const auto layer = layer_profile(psi.value[q], epsilon);
             const double gradient = std::hypot(psi.r[q], psi.z[q]), density = membrane_density(layer, step.weight);
-            const double length = std::hypot(gradient, gradient_floor);
+            const double sheet_r = psi.r[q] - psi.value[q] / epsilon * epsilon_r;
+            const double sheet_z = psi.z[q] - psi.value[q] / epsilon * epsilon_z;
+            const double length = std::hypot(sheet_r, sheet_z, gradient_floor);
             const auto bending = stiffness_of(c.value[q], model);
             const double K = b.value[q] / bending.beta;
             const double nu = layer_viscosity(layer.phi, step.fluid, step.weight, numerics.viscosity_mean);
             const double hoop = ur.value[q] / r, shear = ur.z[q] + uz.r[q];
             const double stretching =
-                surface_divergence(psi.r[q] / length, psi.z[q] / length, ur.r[q], hoop, uz.z[q], shear);
+                surface_divergence(sheet_r / length, sheet_z / length, ur.r[q], hoop, uz.z[q], shear);
             integrals.area += w * layer.delta;
             integrals.molecules += w * density * c.value[q];
             integrals.stretching += w * density * s.value[q];
-            diagnostics.bending_energy += w * 0.5 * layer.delta * bending.beta * K * K;
+            const auto weight = energy_weight(layer, psi.value[q], epsilon);
+            diagnostics.bending_energy +=
+                w * moment_energy({b.value[q], b.r[q], b.z[q]}, {psi.value[q], psi.r[q], psi.z[q]}, K, weight.value,
+                                  epsilon, model);
             diagnostics.viscous_dissipation +=
                 w * nu * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
             if (step.fluid.dynamics == Dynamics::geometric)
@@ -65,7 +73,9 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
             if (std::abs(layer.phi) < layer_middle)
                 diagnostics.thickness_error_max = std::max(diagnostics.thickness_error_max, thickness_error);
             diagnostics.profile_error_max = std::max(diagnostics.profile_error_max, thickness_error);
-            diagnostics.motion_max = std::max(diagnostics.motion_max, std::abs(psi.value[q] - old_psi.value[q]));
+            const double motion = std::abs(psi.value[q] - old_psi.value[q]);
+            diagnostics.motion_max = std::max(diagnostics.motion_max, motion);
+            layer_motion = std::max(layer_motion, motion * numerics.epsilon / epsilon);
             difference = std::max(difference, std::abs(psi.value[q] - guess.value[q]));
         }
     }
@@ -75,7 +85,7 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
                         &diagnostics.transport_power},
                        communicator);
     largest_of_processes({&diagnostics.area_strain_max, &diagnostics.thickness_error_max,
-                          &diagnostics.profile_error_max, &diagnostics.motion_max, &difference},
+                          &diagnostics.profile_error_max, &diagnostics.motion_max, &difference, &layer_motion},
                          communicator);
     return out;
 }
@@ -87,7 +97,7 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
     return measure_solution(space, model, step, solution, solution, at_rest, solution);
 }
 
-double layer_increment(const Space& space, double epsilon, const Vector& increment, const Vector& solution) {
+double layer_increment(const Space& space, const StepNumbers& step, const Vector& increment, const Vector& solution) {
     const dealii::QGauss<2> quadrature(space.degrees[distance] + 1);
     ComponentField change(space, distance, quadrature), psi(space, distance, quadrature);
     double largest = 0;
@@ -95,9 +105,12 @@ double layer_increment(const Space& space, double epsilon, const Vector& increme
         if (!cell->is_locally_owned()) continue;
         const CellBox box = cell_box(cell);
         const auto &present = psi.on(cell, box, solution), &d = change.on(cell, box, increment);
-        for (unsigned int q = 0; q < quadrature.size(); ++q)
+        for (unsigned int q = 0; q < quadrature.size(); ++q) {
+            const auto& x = quadrature.point(q);
+            const double epsilon = step.thickness_at(cell->active_cell_index(), box, x[0], x[1]).value;
             if (std::abs(equilibrium_profile(present.value[q], epsilon)) <= layer_edge)
-                largest = std::max(largest, std::abs(d.value[q]));
+                largest = std::max(largest, std::abs(d.value[q]) * step.numerics.epsilon / epsilon);
+        }
     }
     return dealii::Utilities::MPI::max(largest, space.dofs.get_communicator());
 }

@@ -10,6 +10,7 @@ struct SolutionMeasures {
     LayerIntegrals integrals;
     StepDiagnostics diagnostics;
     double step_difference;  // max |ψ − ψ_predicted| on |φ| < 0.9 [nm]
+    double layer_motion;  // the same of ψ − ψ_before where ε is largest; elsewhere as much larger as ε is smaller
 };
 
 /// `before` and `predicted` give the motion and the difference to the predictor, `rate` is ∂/∂t of the fields [1/µs].
@@ -21,7 +22,7 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
 SolutionMeasures measure_solution(const Space& space, const BendingModel& model, const StepNumbers& step,
                                   const Vector& solution);
 
-/// max |increment of ψ| on |φ| < 0.9 [nm]; collective.
-double layer_increment(const Space& space, double epsilon, const Vector& increment, const Vector& solution);
+/// max |increment of ψ| on |φ| < 0.9 in units of ε, times phase_field.epsilon [nm]; collective.
+double layer_increment(const Space& space, const StepNumbers& step, const Vector& increment, const Vector& solution);
 
 }  // namespace endoflow::phasefield::production

@@ -22,9 +22,8 @@ void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Num
     const auto &ur = x[velocity_r], &uz = x[velocity_z], &psi = x[distance], &c = x[molecule_density];
     const auto& G = x[normal_force];
     const Number g = p.density * G.value, molecular = step.weight.cut * p.density * e;
-    const double kink = uneven_fade * step.numerics.epsilon * std::hypot(change.r, change.z);
-    const Number uneven = (1 / (1 + kink * kink)) * force_diffusivity(p, step.numerics.epsilon) *
-                          (past.normal.r * G.r + past.normal.z * G.z);
+    const double kink = uneven_fade * p.epsilon * std::hypot(change.r, change.z);
+    const Number uneven = (1 / (1 + kink * kink)) * force_diffusivity(p) * (past.normal.r * G.r + past.normal.z * G.z);
     const Number nu = layer_viscosity(p.layer.phi, step.fluid, step.weight, step.numerics.viscosity_mean);
     const Number hoop = ur.value / r, divergence = ur.r + hoop + uz.z;
     const Number isotropic = x[pressure].value + p.layer.delta * x[pressure_layer].value;

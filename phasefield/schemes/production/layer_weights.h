@@ -41,16 +41,20 @@ Number cut_density(const LayerProfile<Number>& layer) {
 /// δ_m [1/nm] with its tails cut off.
 template <class Number>
 Number membrane_density(const LayerProfile<Number>& layer, const MembraneWeight& w) {
-    return cut_density(layer) * (w.constant + w.square * (layer.phi * layer.phi));
+    const Number phi2 = layer.phi * layer.phi;
+    return cut_density(layer) * (w.constant + phi2 * (w.square + w.fourth * phi2));
 }
 
-/// ∫ δ_m dψ from φ = 0, with the tails cut off: what is cut off is ¾ f ((a + b) x − b x²)/(x² + f) dφ with
-/// x = 1 − φ² and f = weight_cut, real and imaginary part of ∫ dφ/(x − i√f).
+/// ∫ δ_m dψ from φ = 0, with the tails cut off: what is cut off is ¾ f (A x − B x² + c x³)/(x² + f) dφ with x = 1 − φ²,
+/// A = a + b + c, B = b + 2c and f = weight_cut, in which ∫ x dφ/(x² + f) and √f ∫ dφ/(x² + f) are real and imaginary
+/// part of ∫ dφ/(x − i√f).
 inline double cut_indicator(double phi, const MembraneWeight& w) {
     static const double root = std::sqrt(weight_cut);
     static const std::complex<double> end = std::sqrt(std::complex<double>(1, -root));
     const std::complex<double> part = std::atanh(phi / end) / end;
-    const double cut = (w.constant + w.square) * part.real() - w.square * (phi - root * part.imag());
+    const double first = w.constant + w.square + w.fourth, second = w.square + 2 * w.fourth;
+    const double cut = (first - w.fourth * weight_cut) * part.real() - second * (phi - root * part.imag()) +
+                       w.fourth * (phi - phi * phi * phi / 3);
     return membrane_indicator(phi, w) - 0.75 * weight_cut * cut;
 }
 
@@ -59,18 +63,20 @@ inline double cut_indicator(double phi, const MembraneWeight& w) {
 template <class Number>
 struct EnergyWeight {
     Number value, first, second;
-    Number kept;  // δ/(δ + f)
+    Number kept;                    // δ/(δ + f)
+    Number thickness, thickness_1;  // ∂/∂ε of the weight and of its derivative: it is a function of ψ/ε over ε
 };
 
 template <class Number>
-EnergyWeight<Number> energy_weight(const LayerProfile<Number>& layer, double epsilon) {
+EnergyWeight<Number> energy_weight(const LayerProfile<Number>& layer, const Number& psi, double epsilon) {
     const double a = 2 / (inverse_sqrt2 * epsilon);
     const Number& d = layer.delta;
     const Number d1 = layer.delta_slope, d2 = -a * (layer.phi_slope * d + layer.phi * d1);
     const double f = tail_cut * 0.75 * inverse_sqrt2 / epsilon;
     const Number inverse = 1.0 / (d + f), part = d * inverse, rest = f * inverse;
     const Number g1 = part * (part + 2.0 * rest), g2 = 2.0 * rest * rest * inverse;
-    return {energy_norm * d * part, energy_norm * g1 * d1, energy_norm * (g2 * d1 * d1 + g1 * d2), part};
+    const Number w = energy_norm * d * part, w1 = energy_norm * g1 * d1, w2 = energy_norm * (g2 * d1 * d1 + g1 * d2);
+    return {w, w1, w2, part, (-1 / epsilon) * (w + psi * w1), (-1 / epsilon) * (2.0 * w1 + psi * w2)};
 }
 
 }  // namespace endoflow::phasefield::production

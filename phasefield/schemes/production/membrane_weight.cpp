@@ -5,6 +5,7 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace endoflow::phasefield::production {
 
@@ -13,17 +14,20 @@ namespace {
 constexpr double smallest_square = constant("smallest_square");
 constexpr double monotonic_square = constant("monotonic_square");
 constexpr double equal_viscosities = constant("equal_viscosities");
+constexpr double smallest_fluidity = constant("smallest_fluidity");
+constexpr double largest_ratio = constant("largest_ratio");
+constexpr double ratio_step = constant("ratio_step");
 constexpr double smallest_viscosity = constant("smallest_viscosity");
 constexpr double nearly_one = 1 - 1e-9;  // the integrands tend to 0 there, as 0/0
 
-MembraneWeight weight_of(double square) {
-    return {1 - square / 5, square};
+MembraneWeight weight_of(double square, double fourth) {
+    return {1 - square / 5 - 3 * fourth / 35, square, fourth};
 }
 
-/// max H_m − ½.
+/// max H_m − ½ of a weight without φ⁴.
 double overshoot(double square) {
     if (square >= monotonic_square) return 0;
-    const MembraneWeight w = weight_of(square);
+    const MembraneWeight w = weight_of(square, 0);
     return membrane_indicator(std::sqrt(-w.constant / w.square), w) - 0.5;
 }
 
@@ -38,35 +42,108 @@ double zero_of(const Function& f, double a, double b) {
     return 0.5 * (bracket.first + bracket.second);
 }
 
+double ratio_of(const FluidParameters& fluid) {
+    const auto [low, high] = std::minmax(fluid.viscosity_extracellular, fluid.viscosity_intracellular);
+    return high / low;
+}
+
+bool by_squares(const FluidParameters& fluid, ViscosityMean mean) {
+    return mean == ViscosityMean::harmonic || ratio_of(fluid) - 1 < equal_viscosities;
+}
+
+/// Newton's method for both integrals from a weight that is near.
+MembraneWeight without_excess(const FluidParameters& fluid, MembraneWeight weight) {
+    constexpr double difference = 1e-5, arrived = 1e-11;
+    constexpr int most = 20;
+    const auto excess = [&](double square, double fourth) {
+        return excess_shear(weight_of(square, fourth), fluid, ViscosityMean::arithmetic);
+    };
+    for (int iteration = 0; iteration < most; ++iteration) {
+        const double b = weight.square, c = weight.fourth;
+        const ExcessShear f = excess(b, c);
+        const ExcessShear up_b = excess(b + difference, c), down_b = excess(b - difference, c);
+        const ExcessShear up_c = excess(b, c + difference), down_c = excess(b, c - difference);
+        const double sum_b = up_b.sum - down_b.sum, sum_c = up_c.sum - down_c.sum;
+        const double moment_b = up_b.moment - down_b.moment, moment_c = up_c.moment - down_c.moment;
+        const double scale = 2 * difference / (sum_b * moment_c - sum_c * moment_b);
+        const double step_b = scale * (sum_c * f.moment - moment_c * f.sum);
+        const double step_c = scale * (moment_b * f.sum - sum_b * f.moment);
+        weight = weight_of(b + step_b, c + step_c);
+        if (std::abs(step_b) + std::abs(step_c) < arrived * std::abs(b)) break;
+    }
+    return weight;
+}
+
+/// Of a weight t and δ the rest: the part of the smaller viscosity to which it falls where the larger one is `ratio`
+/// times as large.
+double lowest_viscosity(const MembraneWeight& weight, double t, double ratio) {
+    constexpr int points = 1000;
+    double largest = 0.5;  // of H_m
+    for (int i = 1; i < points; ++i) {
+        const double phi = static_cast<double>(i) / points;
+        largest = std::max(largest, t * membrane_indicator(phi, weight) + (1 - t) * membrane_indicator(phi, {}));
+    }
+    return 1 - (ratio - 1) * (largest - 0.5);
+}
+
+/// From equal viscosities, where the weight is known, to larger and larger contrasts.
+MembraneWeight quartic_weight(const FluidParameters& fluid) {
+    const double ratio = std::min(ratio_of(fluid), largest_ratio);
+    const bool inverse = fluid.viscosity_extracellular > fluid.viscosity_intracellular;
+    MembraneWeight weight = weight_of(constant("equal_square"), constant("equal_fourth"));
+    for (double reached = 1; reached < ratio || ratio == 1; reached *= ratio_step) {
+        FluidParameters between = fluid;
+        between.viscosity_extracellular = 1;
+        between.viscosity_intracellular = std::min(ratio, reached * ratio_step);
+        if (inverse) std::swap(between.viscosity_extracellular, between.viscosity_intracellular);
+        weight = without_excess(between, weight);
+        if (ratio == 1) break;
+    }
+    const auto margin = [&](double t) { return lowest_viscosity(weight, t, ratio_of(fluid)) - smallest_viscosity; };
+    if (margin(1) >= 0) return weight;
+    const double part = zero_of(margin, 0.0, 1.0);
+    return weight_of(part * weight.square, part * weight.fourth);
+}
+
+MembraneWeight quadratic_weight(const FluidParameters& fluid, ViscosityMean mean) {
+    const double contrast = ratio_of(fluid) - 1;
+    const auto too_far = [&](double square) { return contrast * overshoot(square) - (1 - smallest_fluidity); };
+    const double lowest =
+        too_far(smallest_square) > 0 ? zero_of(too_far, smallest_square, monotonic_square) : smallest_square;
+    const auto excess = [&](double square) { return excess_shear(weight_of(square, 0), fluid, mean).sum; };
+    return weight_of(zero_of(excess, lowest, 0.0), 0);
+}
+
 }  // namespace
 
 double cut_norm(const MembraneWeight& weight) {
     const auto integrand = [&](double phi) {  // dH_m/dφ times the part that is kept
-        const double well = 1 - phi * phi, kept = well * well / (well * well + tail_cut);
-        return 0.75 * well * (weight.constant + weight.square * phi * phi) * kept;
+        const double phi2 = phi * phi, well = 1 - phi2, kept = well * well / (well * well + tail_cut);
+        return 0.75 * well * (weight.constant + phi2 * (weight.square + phi2 * weight.fourth)) * kept;
     };
     return 0.5 / boost::math::quadrature::tanh_sinh<double>().integrate(integrand, 0.0, 1.0);
 }
 
-double excess_shear(const MembraneWeight& weight, const FluidParameters& fluid, ViscosityMean mean) {
-    const double nu1 = fluid.viscosity_extracellular, nu2 = fluid.viscosity_intracellular, far = 1 / nu1 + 1 / nu2;
+ExcessShear excess_shear(const MembraneWeight& weight, const FluidParameters& fluid, ViscosityMean mean) {
+    const double inner = 1 / fluid.viscosity_extracellular, outer = 1 / fluid.viscosity_intracellular;
+    const double far = inner + outer;
     const auto fluidity = [&](double phi) { return 1 / layer_viscosity(phi, fluid, weight, mean); };
-    const bool squares = mean == ViscosityMean::harmonic || std::abs(nu1 / nu2 - 1) < equal_viscosities;
-    const auto integrand = [&](double phi) {
+    const bool squares = by_squares(fluid, mean);
+    const auto sum = [&](double phi) {
         const double h = membrane_indicator(phi, weight);
         return (squares ? 2 * h * h - 0.5 : (fluidity(phi) + fluidity(-phi)) / far - 1) / (1 - phi * phi);
     };
-    return boost::math::quadrature::tanh_sinh<double>().integrate(integrand, 0.0, nearly_one);
+    const auto moment = [&](double phi) {
+        const double excess =
+            squares ? 2 * membrane_indicator(phi, weight) - 1 : (fluidity(phi) - inner - fluidity(-phi) + outer) / far;
+        return std::atanh(phi) * excess / (1 - phi * phi);
+    };
+    boost::math::quadrature::tanh_sinh<double> rule;
+    return {rule.integrate(sum, 0.0, nearly_one), rule.integrate(moment, 0.0, nearly_one)};
 }
 
 MembraneWeight membrane_weight(const FluidParameters& fluid, ViscosityMean mean) {
-    const double nu1 = fluid.viscosity_extracellular, nu2 = fluid.viscosity_intracellular;
-    const double contrast = std::max(nu1, nu2) / std::min(nu1, nu2) - 1;
-    const auto too_far = [&](double square) { return contrast * overshoot(square) - (1 - smallest_viscosity); };
-    const double lowest =
-        too_far(smallest_square) > 0 ? zero_of(too_far, smallest_square, monotonic_square) : smallest_square;
-    const auto excess = [&](double square) { return excess_shear(weight_of(square), fluid, mean); };
-    MembraneWeight weight = weight_of(zero_of(excess, lowest, 0.0));
+    MembraneWeight weight = mean == ViscosityMean::harmonic ? quadratic_weight(fluid, mean) : quartic_weight(fluid);
     weight.cut = cut_norm(weight);
     return weight;
 }

@@ -5,10 +5,10 @@
 
 namespace endoflow::phasefield::production {
 
-/// The weight δ_m = δ (a + b φ²) of what lives on the membrane, a = 1 − b/5 so that ∫δ_m dψ = 1.
+/// The weight δ_m = δ (a + b φ² + c φ⁴) of what lives on the membrane, a = 1 − b/5 − 3c/35 so that ∫δ_m dψ = 1.
 struct MembraneWeight {
-    double constant = 1, square = 0;  // a, b
-    double cut = 1;                   // 1/∫ δ_m δ/(δ + f) dψ
+    double constant = 1, square = 0, fourth = 0;  // a, b, c
+    double cut = 1;                               // 1/∫ δ_m δ/(δ + f) dψ
 };
 
 /// f of what is cut off in the tails, δ → δ²/(δ + f), as part of max δ: 4 ε from the membrane normals may cross, and
@@ -22,7 +22,8 @@ double cut_norm(const MembraneWeight& weight);
 template <class Number>
 Number membrane_indicator(const Number& phi, const MembraneWeight& w) {
     const Number phi2 = phi * phi;
-    return phi * (0.75 * w.constant + phi2 * (0.25 * (w.square - w.constant) - (0.15 * w.square) * phi2));
+    return phi * (0.75 * w.constant + phi2 * (0.25 * (w.square - w.constant) +
+                                              phi2 * (0.15 * (w.fourth - w.square) - (0.75 / 7 * w.fourth) * phi2)));
 }
 
 /// ν [pN µs/nm²]. It steps with H_m, so that its step matches the stress that the membrane takes up.
@@ -35,14 +36,23 @@ Number layer_viscosity(const Number& phi, const FluidParameters& fluid, const Me
     return nu2 + (nu1 - nu2) * outside;
 }
 
-/// The shear that the layer adds to that of two fluids meeting in a sharp membrane, as a length in units of √2 ε: with
-/// the stress going from one side's to the other's as H_m does, the velocity's jump across the layer and the mean
-/// velocity ∫δ_m u are those of the sharp membrane when it is zero. For the arithmetic mean it is the excess fluidity
-/// ∫(1/ν − step) over the mean fluidity; for the harmonic one, and for equal viscosities, ∫(H_m² − ¼).
-double excess_shear(const MembraneWeight& weight, const FluidParameters& fluid, ViscosityMean mean);
+/// The shear that the layer adds to that of two fluids meeting in a sharp membrane. With the stress going from one
+/// side's to the other's as H_m does, the velocity's jump across the layer and the mean velocity ∫δ_m u are those of
+/// the sharp membrane when `sum`, of first order in ε, is zero, and the flow through a pipe of membrane when `moment`,
+/// of second order, is.
+struct ExcessShear {
+    double sum;     // ∫(1/ν − step) dψ over the mean fluidity [√2 ε]
+    double moment;  // ∫ψ (1/ν − step) dψ over the mean fluidity [2 ε²]
+};
 
-/// The weight without excess shear, as far as the viscosity stays above half the smaller one (or the fluidity above
-/// half the smaller fluidity) in the layer: for arithmetic means that holds for ratios up to about 15.
+/// For equal viscosities and for the harmonic mean, where ∫(1/ν − step) vanishes whatever the weight, the integrals
+/// are ∫(2 H_m² − ½) and ∫2 ψ (H_m − ½ sign ψ), to which they tend over powers of the contrast.
+ExcessShear excess_shear(const MembraneWeight& weight, const FluidParameters& fluid, ViscosityMean mean);
+
+/// The weight without excess shear. With arithmetic means both integrals vanish for ratios of the viscosities up to
+/// `largest_ratio`; beyond, the weight for that ratio is mixed with δ until the viscosity stays above the part
+/// `smallest_viscosity` of the smaller one. With harmonic means c = 0 and only the sum vanishes, as far as the fluidity
+/// stays above half the smaller one.
 MembraneWeight membrane_weight(const FluidParameters& fluid, ViscosityMean mean);
 
 }  // namespace endoflow::phasefield::production

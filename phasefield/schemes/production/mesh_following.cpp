@@ -4,6 +4,7 @@
 #include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/production_scheme.h"
 #include "phasefield/schemes/production/refinement.h"
+#include "phasefield/schemes/production/thickness_checkpoint.h"
 
 namespace endoflow::phasefield::production {
 
@@ -44,17 +45,13 @@ void ProductionScheme::follow(const MembraneCurve& curve) {
     bool adapted = false;
     for (int pass = 0; pass < most_passes && adapt_once(curve); ++pass) adapted = true;
     if (!adapted) return;
+    if (numbers_.thickness) take_thickness(ThicknessCurve(numbers_.thickness->curve()));
     solver_.reinit(space_);
-    // Cells are coarsened outside of the layer alone; what that changes in ∫δ c and ∫δ s is restored to round-off.
-    const auto present = [this] { return measure_solution(space_, model_, numbers_, solutions_.front()).integrals; };
-    const LayerIntegrals after = present();
-    for (auto& solution : solutions_) {
-        if (after.molecules > 0)
-            scale_component(space_, molecule_density, integrals_.molecules / after.molecules, solution);
-        scale_component(space_, membrane_stretch, integrals_.stretching / after.stretching, solution);
-        impose_boundary_values(space_, parameters_, solution);
-    }
-    integrals_ = present();
+    // Cells are coarsened outside of the layer alone; what that changes in ∫δ_m c is restored to round-off. s, a
+    // density, stays: what changes in ∫δ_m s is the area that the layer measures, and would be a strain.
+    restore_molecules();
+    for (auto& solution : solutions_) impose_boundary_values(space_, parameters_, solution);
+    present();
 }
 
 void ProductionScheme::save(const std::filesystem::path& directory, Checkpoint& checkpoint) {
@@ -63,6 +60,7 @@ void ProductionScheme::save(const std::filesystem::path& directory, Checkpoint& 
     checkpoint.scalars["moved"] = moved_;
     checkpoint.scalars["steps_since_start"] = since_start_;
     checkpoint.arrays["solution_times"] = times_;
+    save_thickness(numbers_.thickness, "thickness", checkpoint);
     make_empty_directory(directory, mesh_->get_communicator());
     Transfer transfer(space_.dofs);
     auto vectors = addresses(solutions_);
@@ -83,6 +81,7 @@ StepOutcome ProductionScheme::load(const std::filesystem::path& directory, const
     times_ = checkpoint.array("solution_times");
     load_mesh(directory, *mesh_);
     renew();
+    load_thickness(checkpoint, "thickness", *mesh_, numbers_);
     Transfer transfer(space_.dofs);
     solutions_.assign(times_.size(), space_.vector());
     std::vector<Vector*> targets;

@@ -43,6 +43,10 @@ class PastFields {
 
     void evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell, const CellBox& box,
                        std::vector<PointPast>& points) {
+        for (std::size_t q = 0; q < points.size(); ++q) {
+            const auto& x = quadrature_->point(static_cast<unsigned int>(q));
+            points[q].thickness = step_->thickness_at(cell->active_cell_index(), box, x[0], x[1]);
+        }
         ahead_r_.assign(points.size(), 0);
         ahead_z_.assign(points.size(), 0);
         for (std::size_t j = 0; j < history_->weights.size(); ++j) {
@@ -57,7 +61,7 @@ class PastFields {
         cell->get_dof_values(*history_->extrapolated, values_);
         field(distance, box, predicted_);
         for (std::size_t q = 0; q < points.size(); ++q) {
-            const double well = layer_profile(psi_.value[q], step_->numerics.epsilon).squared_well;
+            const double well = layer_profile(psi_.value[q], points[q].thickness.value).squared_well;
             const auto& x = quadrature_->point(static_cast<unsigned int>(q));
             const auto last = membrane_.at(box.r0 + box.hr * x[0], box.z0 + box.hz * x[1]);
             const auto normal = [&](double r, double z, double last_below) {
@@ -82,7 +86,7 @@ class PastFields {
         field(velocity_r, box, u_r_);
         field(velocity_z, box, u_z_);
         for (std::size_t q = 0; q < points.size(); ++q) {
-            const auto layer = layer_profile(psi_.value[q], step_->numerics.epsilon);
+            const auto layer = layer_profile(psi_.value[q], points[q].thickness.value);
             const double density = membrane_density(layer, step_->weight);
             points[q].distance += weight * psi_.value[q];
             points[q].indicator += weight * cut_indicator(layer.phi, step_->weight);

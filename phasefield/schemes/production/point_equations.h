@@ -18,24 +18,33 @@ namespace endoflow::phasefield::production {
 // first-order effects cancel: what remains is O(ε²). The force on the fluid is δ_m (G ∇ψ + e ∇c), where δ_m G is the
 // variation of the discrete energy with respect to ψ, and ψ and c move with the same weight: then the work of the force
 // is exactly the energy's change. Without that, motions at the scale of the cells gain energy and grow.
+//
+// Where ε changes along the membrane the layer's sheets are those of constant ψ/ε, with the normal of g = ε ∇(ψ/ε) =
+// ∇ψ − (ψ/ε) ∇ε. Along them acts the tension and flow molecules and membrane: δ_m is constant there. Along sheets of
+// constant ψ the tension would pull at the layer's change of thickness, and shear it.
 
 /// All rows at one point at radius r [nm].
 template <class Number>
 Fields<Number> point_equations(const Fields<Number>& x, double r, const PointPast& past, const GradientChange& change,
                                const StepNumbers& step, const BendingModel& model) {
-    const double epsilon = step.numerics.epsilon;
     const auto& psi = x[distance];
-    const Number squared = psi.r * psi.r + psi.z * psi.z;
-    const Number inverse = inverse_root(squared + gradient_floor * gradient_floor);
+    const auto& [epsilon, epsilon_r, epsilon_z] = past.thickness;
+    const Number relative = (1 / epsilon) * psi.value;
+    const Number sheet_r = psi.r - epsilon_r * relative, sheet_z = psi.z - epsilon_z * relative;
+    const Number inverse = inverse_root(sheet_r * sheet_r + sheet_z * sheet_z + gradient_floor * gradient_floor);
     const auto layer = layer_profile(psi.value, epsilon);
     const Number density = membrane_density(layer, step.weight);
-    const PointGeometry<Number> p{
-        layer,           layer.delta + surface_floor,
-        density,         chain(psi.value, cut_indicator(value_of(layer.phi), step.weight), value_of(density)),
-        psi.r * inverse, psi.z * inverse,
-        squared,         inverse};
+    const PointGeometry<Number> p{epsilon,
+                                  layer,
+                                  layer.delta + surface_floor,
+                                  density,
+                                  chain(psi.value, cut_indicator(value_of(layer.phi), step.weight), value_of(density)),
+                                  sheet_r * inverse,
+                                  sheet_z * inverse,
+                                  psi.r * psi.r + psi.z * psi.z,
+                                  inverse};
     Fields<Number> row;
-    const Number e = add_bending(x, p, model, epsilon, past, row);
+    const Number e = add_bending(x, p, model, past, row);
     add_flow(x, p, e, r, past, change, step, row);
     add_inextensibility(x, p, past, r, step, row);
     add_motion(x, p, past, step, row);

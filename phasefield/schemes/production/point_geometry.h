@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 
 #include "phasefield/layer/profile.h"
 #include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/fields.h"
+#include "phasefield/schemes/production/layer_thickness.h"
 #include "phasefield/schemes/production/layer_weights.h"
 #include "phasefield/schemes/production/membrane_weight.h"
 #include "shared/numerics/forward.h"
@@ -28,6 +30,7 @@ struct PointPast {
     Direction normal;                 // n = ∇ψ/|∇ψ|; far from the membrane that of its closest point
     Direction molecules_normal;       // the same with the error of BDF, for c
     double slope_r = 0, slope_z = 0;  // ∇Σ_j a_j ψ(t_j)
+    PointThickness thickness;         // ε, the same for all times
 };
 
 /// n·∇∇ψ [1/nm] with the predicted n: how ∇ψ changes along the normal, 0 where ψ is a distance. The Jacobian holds it
@@ -45,6 +48,12 @@ struct StepNumbers {
     MembraneWeight weight;
     double profile_relaxation = numerics.production.profile_relaxation;  // M of this step [nm/µs]
     bool inextensible = true;                                            // s is one but for what the tension leaves
+    std::shared_ptr<const CellThickness> thickness{};                    // of the layer; none: uniform
+
+    /// ε at the point (x, y) of a unit cell.
+    [[nodiscard]] PointThickness thickness_at(std::size_t active_cell, const CellBox& box, double x, double y) const {
+        return thickness ? thickness->at(active_cell, box, x, y) : PointThickness{numerics.epsilon};
+    }
 };
 
 inline constexpr double surface_floor = constant("surface_floor");
@@ -62,10 +71,11 @@ Number inverse_root(const Number& x) {
 /// What the rows share.
 template <class Number>
 struct PointGeometry {
+    double epsilon;  // here [nm]
     LayerProfile<Number> layer;
     Number surface, density;                                        // δ with a floor, δ_m [1/nm]
     Number indicator;                                               // ∫ δ_m dψ
-    Number normal_r, normal_z, squared_gradient, inverse_gradient;  // n = ∇ψ/|∇ψ|; |∇ψ|²; 1/|∇ψ|
+    Number normal_r, normal_z, squared_gradient, inverse_gradient;  // of the sheets: g/|g|; |∇ψ|²; 1/|g|
 };
 
 /// The part of g along the normal, (n n + (1 − |n|²))·g: all of it where normals cross and n vanishes.
@@ -83,8 +93,8 @@ void add_alignment(const AtPoint<Number>& y, const Direction& n, const Number& d
 
 /// D of G [nm²] times δ.
 template <class Number>
-Number force_diffusivity(const PointGeometry<Number>& p, double epsilon) {
-    return (force_alignment * epsilon * epsilon) * p.surface;
+Number force_diffusivity(const PointGeometry<Number>& p) {
+    return (force_alignment * p.epsilon * p.epsilon) * p.surface;
 }
 
 template <class Number>
@@ -104,8 +114,8 @@ void extend_multiplier(const AtPoint<Number>& y, const PointGeometry<Number>& p,
 
 /// A diffusivity along the normal [nm²/µs] made fast within a step: δ_m is negative in the layer's tails, where without
 /// it y would grow.
-inline double within_a_step(double diffusivity, const StepNumbers& step) {
-    return diffusivity + step_alignment * step.numerics.epsilon * step.numerics.epsilon * step.rate;
+inline double within_a_step(double diffusivity, double epsilon, const StepNumbers& step) {
+    return diffusivity + step_alignment * epsilon * epsilon * step.rate;
 }
 
 }  // namespace endoflow::phasefield::production

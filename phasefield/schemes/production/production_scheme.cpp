@@ -52,25 +52,32 @@ namespace {
 /// φ and the pressure with the layer's part, which are not unknowns themselves.
 class PhysicalFields : public dealii::DataPostprocessor<2> {
   public:
-    explicit PhysicalFields(double epsilon) : epsilon_(epsilon) {}
+    explicit PhysicalFields(const StepNumbers& step) : step_(&step) {}
     [[nodiscard]] std::vector<std::string> get_names() const override { return {"phi", "pressure"}; }
     [[nodiscard]] std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>
     get_data_component_interpretation() const override {
         return std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
             2, dealii::DataComponentInterpretation::component_is_scalar);
     }
-    [[nodiscard]] dealii::UpdateFlags get_needed_update_flags() const override { return dealii::update_values; }
+    [[nodiscard]] dealii::UpdateFlags get_needed_update_flags() const override {
+        return dealii::update_values | dealii::update_quadrature_points;
+    }
     void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<2>& in,
                                std::vector<dealii::Vector<double>>& out) const override {
+        const auto cell = in.get_cell<2>();
+        const CellBox box = cell_box(cell);
         for (std::size_t q = 0; q < out.size(); ++q) {
             const auto& value = in.solution_values[q];
-            out[q](0) = equilibrium_profile(value(distance), epsilon_);
-            out[q](1) = value(Field::pressure) + layer_profile(value(distance), epsilon_).delta * value(pressure_layer);
+            const double x = (in.evaluation_points[q][0] - box.r0) / box.hr;
+            const double y = (in.evaluation_points[q][1] - box.z0) / box.hz;
+            const double epsilon = step_->thickness_at(cell->active_cell_index(), box, x, y).value;
+            out[q](0) = equilibrium_profile(value(distance), epsilon);
+            out[q](1) = value(Field::pressure) + layer_profile(value(distance), epsilon).delta * value(pressure_layer);
         }
     }
 
   private:
-    double epsilon_;
+    const StepNumbers* step_;
 };
 
 }  // namespace
@@ -78,6 +85,22 @@ class PhysicalFields : public dealii::DataPostprocessor<2> {
 void ProductionScheme::distribute() {
     space_.distribute();
     close_constraints(space_, parameters_);
+}
+
+void ProductionScheme::take_thickness(const ThicknessCurve& thickness) {
+    numbers_.thickness = thickness.r.empty() ? nullptr : std::make_shared<const CellThickness>(thickness, *mesh_);
+}
+
+void ProductionScheme::restore_molecules() {
+    const double now = measure_solution(space_, model_, numbers_, solutions_.front()).integrals.molecules;
+    if (now <= 0) return;
+    for (auto& solution : solutions_) scale_component(space_, molecule_density, integrals_.molecules / now, solution);
+}
+
+void ProductionScheme::foresee_thickness(double tau) {
+    if (parameters_.phase_field.production.thinning == 0) return;
+    take_thickness(ThicknessCurve(membrane_, tau, parameters_));
+    restore_molecules();
 }
 
 void ProductionScheme::renew() {
@@ -93,7 +116,9 @@ StepOutcome ProductionScheme::present() {
     const Vector& solution = solutions_.front();
     const auto measures = measure_solution(space_, model_, numbers_, solution);
     integrals_ = measures.integrals;
-    return {measures.diagnostics, contour(solution), {}};
+    StepOutcome out{measures.diagnostics, contour(solution), {}};
+    membrane_ = out.contour.curve;
+    return out;
 }
 
 StepOutcome ProductionScheme::start() {
@@ -134,6 +159,7 @@ Vector ProductionScheme::polynomial(double time, std::size_t count) const {
 
 StepOutcome ProductionScheme::attempt(double time, double tau) {
     const double end = time + tau;
+    foresee_thickness(tau);
     const auto bdf = bdf_coefficients(end, times_, order());
     numbers_.rate = bdf.rate;
     numbers_.profile_relaxation = parameters_.phase_field.production.profile_relaxation;
@@ -160,7 +186,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
         extracellular_inflow(space_, trial_, velocity_r, velocity_z, distance,
                              [this](double psi) { return equilibrium_profile(psi, parameters_.phase_field.epsilon); });
     trial_integrals_ = measures.integrals;
-    const double motion = measures.diagnostics.motion_max;
+    trial_motion_ = measures.layer_motion;
     const double farthest = largest_motion * parameters_.phase_field.epsilon;
     const bool estimated = times_.size() > order();
     const double error = estimated ? measures.step_difference * error_fraction(end, times_, order()) : 0;
@@ -169,12 +195,12 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     if (estimated)
         trial_factor_ = std::min(
             trial_factor_, safety * std::pow(allowed / std::max(error, 1e-12), 1 / (1 + static_cast<double>(order()))));
-    if (motion > 0) trial_factor_ = std::min(trial_factor_, safety * farthest / motion);
+    if (trial_motion_ > 0) trial_factor_ = std::min(trial_factor_, safety * farthest / trial_motion_);
     StepOutcome outcome{measures.diagnostics, {}, {}};
     if (!std::isfinite(measures.diagnostics.bending_energy))
         outcome.rejection = "the energy is not a number";
-    else if (motion > farthest)
-        outcome.rejection = "motion " + std::to_string(motion) + " nm";
+    else if (trial_motion_ > farthest)
+        outcome.rejection = "motion of " + std::to_string(trial_motion_ / parameters_.phase_field.epsilon) + " ε";
     else if (error > tolerated_excess * allowed)
         outcome.rejection = "error " + std::to_string(error) + " nm";
     else
@@ -191,12 +217,13 @@ void ProductionScheme::keep(double time, double tau, const StepOutcome& outcome)
     }
     for (const auto& solution : solutions_) solution.update_ghost_values();  // copies do not have them
     integrals_ = trial_integrals_;
+    membrane_ = outcome.contour.curve;
     // A step that was cut short by a deadline does not shorten the next one.
     const double next = trial_factor_ * tau;
     nominal_ = tau < nominal_ && trial_factor_ >= 1 ? std::max(nominal_, next) : next;
     nominal_ = std::min(nominal_, parameters_.time.max_step);
     speed_ = outcome.diagnostics.motion_max / tau;
-    moved_ += outcome.diagnostics.motion_max;
+    moved_ += trial_motion_;
     since_start_ += 1;
 }
 
@@ -223,7 +250,7 @@ void ProductionScheme::write_fields(const std::filesystem::path& run_directory, 
     for (const auto& unknown : production::unknowns()) names.emplace_back(unknown.output_name);
     dealii::DataOut<2> data;
     const Vector solution = polynomial(time, times_.size());
-    const PhysicalFields physical(parameters_.phase_field.epsilon);
+    const PhysicalFields physical(numbers_);
     data.add_data_vector(space_.dofs, solution, names, meaning);
     data.add_data_vector(space_.dofs, solution, physical);
     data.build_patches(space_.degrees[distance]);

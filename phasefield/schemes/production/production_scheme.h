@@ -40,6 +40,11 @@ class ProductionScheme : public Scheme {
     void distribute();
     void renew();
     bool adapt_once(const MembraneCurve& curve);
+    /// Gives the layer that thickness on the present mesh; none: uniform.
+    void take_thickness(const ThicknessCurve& thickness);
+    /// That of the membrane at the end of the step; the molecules keep their integral.
+    void foresee_thickness(double tau);
+    void restore_molecules();
     /// The polynomial through the newest `count` solutions.
     [[nodiscard]] Vector polynomial(double time, std::size_t count) const;
     [[nodiscard]] std::size_t order() const;
@@ -56,14 +61,16 @@ class ProductionScheme : public Scheme {
     std::vector<Vector> solutions_;  // newest first
     std::vector<double> times_;      // of them [µs]
     LayerIntegrals integrals_{};
+    MembraneCurve membrane_;
 
     Vector trial_;
     LayerIntegrals trial_integrals_{};
     double trial_factor_ = 1;  // by which the step may grow
+    double trial_motion_ = 0;  // of the layer
 
     double nominal_;          // the next step [µs]
     double speed_ = 0;        // of the membrane in the last step [nm/µs]
-    double moved_ = 0;        // since the mesh was made [nm]
+    double moved_ = 0;        // of the layer, since the mesh was made: in units of ε, times phase_field.epsilon [nm]
     double since_start_ = 0;  // steps taken
 };
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "phasefield/schemes/production/constants.h"
+#include "phasefield/schemes/production/layer_thickness.h"
 
 namespace endoflow::phasefield::production {
 
@@ -16,6 +17,7 @@ constexpr double fine_band = constant("fine_band");
 constexpr double neck_cells = constant("neck_cells");
 constexpr double motion_with_flow = constant("motion_with_flow");
 constexpr double motion_without_flow = constant("motion_without_flow");
+constexpr double cells_slack = constant("cells_slack");
 constexpr unsigned int most_neck_levels = count("most_neck_levels");
 
 using Indices = std::vector<std::size_t>;
@@ -67,6 +69,14 @@ Indices narrow_part(const MembraneCurve& curve, double radius) {
     return out;
 }
 
+/// Where the layer is thinner than `epsilon` [nm].
+Indices thin_part(const std::vector<double>& thickness, double epsilon) {
+    Indices out;
+    for (std::size_t i = 0; i < thickness.size(); ++i)
+        if (thickness[i] < epsilon) out.push_back(i);
+    return out;
+}
+
 Indices patch_edge(const MembraneCurve& curve) {
     Indices out;
     for (std::size_t i = 0; i < curve.size(); ++i)
@@ -89,6 +99,12 @@ std::vector<RefinedBand> refined_bands(const MembraneCurve& curve, const Paramet
     const double wanted = edge_cells * parameters.molecules.interface_width;
     const auto edge_levels = static_cast<unsigned int>(std::max(0.0, std::ceil(std::log2(p.cell_size / wanted))));
     if (edge_levels > 0) out.push_back({path.of(patch_edge(curve)), layer_level + edge_levels, inner, outer});
+    const auto thickness = thickness_along(curve, parameters);
+    double thin = p.epsilon / cells_slack, cell = p.cell_size;
+    for (unsigned int level = 1; !thin_part(thickness, thin).empty(); ++level, thin /= 2, cell /= 2) {
+        const double reach = p.band_width * thin;
+        out.push_back({path.of(thin_part(thickness, thin)), layer_level + level, reach, reach + cell});
+    }
     for (unsigned int level = 0; level < most_neck_levels; ++level) {
         const Indices neck = narrow_part(curve, p.cell_size / (1U << level) / neck_cells);
         if (!neck.empty()) out.push_back({path.of(neck), layer_level + level + 1, inner, outer});

@@ -7,6 +7,7 @@
 
 #include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/diagnostics.h"
+#include "phasefield/schemes/production/thickness_checkpoint.h"
 #include "phasefield/solver/anderson.h"
 #include "shared/support/error.h"
 
@@ -26,11 +27,7 @@ constexpr std::size_t vectors_of_guess = 2;  // of an Origin, before the solutio
 }  // namespace
 
 StepSolver::StepSolver(const Parameters& parameters, const BendingModel& model, MPI_Comm communicator, double wanted)
-    : model_(model),
-      pattern_(parameters, model),
-      system_(communicator, "coupled"),
-      epsilon_(parameters.phase_field.epsilon),
-      wanted_(wanted) {}
+    : model_(model), pattern_(parameters, model), system_(communicator, "coupled"), wanted_(wanted) {}
 
 void StepSolver::reinit(const Space& space) {
     system_.reinit(space);
@@ -39,7 +36,12 @@ void StepSolver::reinit(const Space& space) {
 
 Vector StepSolver::factorise(const Problem& problem, const Vector& solution) {
     const auto& history = *problem.history;
-    origin_ = {problem.numbers->rate, problem.numbers->profile_relaxation, history.weights, history.ahead, {solution}};
+    origin_ = {problem.numbers->rate,
+               problem.numbers->profile_relaxation,
+               problem.numbers->thickness,
+               history.weights,
+               history.ahead,
+               {solution}};
     origin_.vectors.push_back(*history.extrapolated);
     for (std::size_t j = 0; j < history.weights.size(); ++j) origin_.vectors.push_back((*history.solutions)[j]);
     assemble(*problem.space, pattern_, model_, *problem.numbers, history, solution, system_);
@@ -62,7 +64,7 @@ StepSolver::Ending StepSolver::iterate(const Problem& problem, Vector& solution,
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
         const bool at_factors = iteration == 0 && newton != nullptr;
         const Vector step = at_factors ? *newton : increment(problem, solution);
-        const double change = layer_increment(*problem.space, epsilon_, step, solution);
+        const double change = layer_increment(*problem.space, *problem.numbers, step, solution);
         char text[24];
         std::snprintf(text, sizeof text, at_factors ? " %.1e" : " (%.1e)", change);
         changes_ += text;
@@ -82,11 +84,12 @@ StepSolver::Ending StepSolver::iterate(const Problem& problem, Vector& solution,
     return Ending::slow;
 }
 
-bool StepSolver::near_factors(const Space& space, const Vector& solution) const {
+bool StepSolver::near_factors(const Problem& problem, const Vector& solution) const {
     Vector moved = solution;
     moved -= origin_.vectors.front();
     moved.update_ghost_values();
-    return layer_increment(space, epsilon_, moved, solution) < farthest * epsilon_;
+    return layer_increment(*problem.space, *problem.numbers, moved, solution) <
+           farthest * problem.numbers->numerics.epsilon;
 }
 
 StepSolver::Ending StepSolver::iterate_with_new_factors(const Problem& problem, Vector& solution) {
@@ -108,7 +111,7 @@ void StepSolver::solve(const Space& space, const StepNumbers& numbers, const Ste
         solution.update_ghost_values();
     };
     changes_.clear();
-    if (system_.has_factors() && near_factors(space, solution)) {
+    if (system_.has_factors() && near_factors(problem, solution)) {
         const Ending ending = iterate(problem, solution, nullptr);
         if (ending == Ending::converged) return;
         if (ending == Ending::diverged) start_again();
@@ -134,6 +137,7 @@ std::vector<const Vector*> StepSolver::save(Checkpoint& checkpoint) const {
     checkpoint.scalars["factors_full_precision"] = system_.precision() == Precision::full ? 1 : 0;
     checkpoint.scalars["factors_rate"] = origin_.rate;
     checkpoint.scalars["factors_profile_relaxation"] = origin_.profile_relaxation;
+    save_thickness(origin_.thickness, "factors_thickness", checkpoint);
     checkpoint.arrays["factors_weights"] = there ? origin_.weights : std::vector<double>{};
     checkpoint.arrays["factors_ahead"] = there ? origin_.ahead : std::vector<double>{};
     std::vector<const Vector*> out;
@@ -153,6 +157,7 @@ void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint&
     if (vectors.empty()) return;
     numbers.rate = checkpoint.scalar("factors_rate");
     numbers.profile_relaxation = checkpoint.scalar("factors_profile_relaxation");
+    load_thickness(checkpoint, "factors_thickness", space.dofs.get_triangulation(), numbers);
     const std::vector<Vector> solutions(vectors.begin() + vectors_of_guess, vectors.end());
     const StepPast history(space, numbers, solutions, checkpoint.array("factors_weights"),
                            checkpoint.array("factors_ahead"), vectors[1]);

@@ -47,11 +47,12 @@ class StepSolver {
     /// What the factors were made from.
     struct Origin {
         double rate = 0, profile_relaxation = 0;
+        std::shared_ptr<const CellThickness> thickness;
         std::vector<double> weights, ahead;
         std::vector<Vector> vectors;  // the iterate, the guess, the solutions before, newest first
     };
 
-    [[nodiscard]] bool near_factors(const Space& space, const Vector& solution) const;
+    [[nodiscard]] bool near_factors(const Problem& problem, const Vector& solution) const;
     /// New factors at `solution`, and Newton's increment there.
     Vector factorise(const Problem& problem, const Vector& solution);
     [[nodiscard]] Vector increment(const Problem& problem, const Vector& solution);
@@ -64,7 +65,7 @@ class StepSolver {
     EquationPattern pattern_;
     CondensedSystem system_;
     Origin origin_;
-    double epsilon_, wanted_;
+    double wanted_;
     std::string changes_;  // of ψ, for the error message
 };
 

@@ -12,7 +12,7 @@ inline constexpr double molecule_leak = constant("molecule_leak");
 
 /// ∂(δ_m y)/∂t + ∇·(δ_m y v), v the fluid's velocity along the membrane and the level sets' own velocity across it. The
 /// two differ where the profile is being restored; with the fluid's velocity alone y would grow in the layer's tails.
-/// Across, δ_m v is −(∂H/∂t) n/|∇ψ| with H = ∫ δ_m dψ, for with BDF's ∂H/∂t a plane membrane keeps a constant y however
+/// Across, δ_m v is −(∂H/∂t) n/g with H = ∫ δ_m dψ, for with BDF's ∂H/∂t a plane membrane keeps a constant y however
 /// far it moves in a step; δ_m ∂ψ/∂t instead leaves an error of the order of (motion/ε)³.
 template <class Number>
 void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry<Number>& p, const PointPast& past,
@@ -29,9 +29,18 @@ void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry
 /// D_n of c [nm²/µs], larger the thinner the layer. The shear within the layer tilts c's level lines off the normal, by
 /// shear rate × ε²/D_n, and the force e ∇c with them: with a constant D_n the volume's error grew as ε fell, and so it
 /// did with normals that lagged behind in the layer's tails by as little as a tenth of a step.
-inline double normal_diffusivity_of_molecules(const StepNumbers& step) {
-    const double epsilon = step.numerics.epsilon, least = least_normal_diffusivity / (epsilon * epsilon * epsilon);
-    return within_a_step(std::max(step.molecules.normal_diffusivity, least), step);
+inline double normal_diffusivity_of_molecules(double epsilon, const StepNumbers& step) {
+    const double least = least_normal_diffusivity / (epsilon * epsilon * epsilon);
+    return within_a_step(std::max(step.molecules.normal_diffusivity, least), epsilon, step);
+}
+
+/// D ∇_Γ y along the sheets: across them δ may change where the layer thins, and y would follow.
+template <class Number>
+void add_surface_diffusion(const AtPoint<Number>& y, const Number& diffusivity, const PointGeometry<Number>& p,
+                           AtPoint<Number>& row) {
+    const Number flux = diffusivity * (y.z * p.normal_r - y.r * p.normal_z);
+    row.r += (-1.0) * flux * p.normal_z;
+    row.z += flux * p.normal_r;
 }
 
 /// What the tension leaves of P:∇u within a cell diffuses away in s, as fast as ζ relaxes s over a cell [nm²/µs].
@@ -47,10 +56,7 @@ inline double stretch_diffusivity(const StepNumbers& step) {
 template <class Number>
 void add_redistribution(const Number& c, const AtPoint<Number>& s, const PointGeometry<Number>& p, const Number& weight,
                         const StepNumbers& step, AtPoint<Number>& row) {
-    const Number along = s.z * p.normal_r - s.r * p.normal_z;
-    const Number flux = stretch_diffusivity(step) * weight * c * along;
-    row.r += (-1.0) * flux * p.normal_z;
-    row.z += flux * p.normal_r;
+    add_surface_diffusion(s, stretch_diffusivity(step) * weight * c, p, row);
 }
 
 /// (40), (41), or (39), or (14): δ_m c is conserved. The diffusion along the membrane ends where δ_m does: on the
@@ -61,19 +67,20 @@ void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     const auto &c = x[molecule_density], &mu = x[molecule_potential];
     add_transport(c.value, x, p, past, past.molecules, step, row[molecule_density]);
     const Number phi2 = p.layer.phi * p.layer.phi, weight = cut_density(p.layer);
-    add_alignment(c, past.molecules_normal, normal_diffusivity_of_molecules(step) * p.surface, row[molecule_density]);
+    add_alignment(c, past.molecules_normal, normal_diffusivity_of_molecules(p.epsilon, step) * p.surface,
+                  row[molecule_density]);
     add_diffusion(c, molecule_leak * (phi2 * phi2), row[molecule_density]);
     if (step.inextensible) add_redistribution(c.value, x[membrane_stretch], p, weight, step, row[molecule_density]);
     row[molecule_potential].value = p.surface * mu.value;
     if (step.molecules.transport == Transport::cahn_hilliard) {
         const double width = step.molecules.interface_width;
         const auto well = double_well(value_of(c.value));
-        add_diffusion(mu, step.molecules.mobility * weight, row[molecule_density]);
+        add_surface_diffusion<Number>(mu, step.molecules.mobility * weight, p, row[molecule_density]);
         row[molecule_potential].value =
             p.surface * mu.value - (1 / width) * p.layer.delta * chain(c.value, well.first, well.second);
-        add_diffusion(c, -width * p.layer.delta, row[molecule_potential]);
+        add_surface_diffusion<Number>(c, -width * p.layer.delta, p, row[molecule_potential]);
     } else if (step.molecules.transport == Transport::fickian) {
-        add_diffusion(c, step.molecules.diffusivity * weight, row[molecule_density]);
+        add_surface_diffusion<Number>(c, step.molecules.diffusivity * weight, p, row[molecule_density]);
     }
 }
 
@@ -83,9 +90,10 @@ void add_stretching(const Fields<Number>& x, const PointGeometry<Number>& p, con
                     const StepNumbers& step, Fields<Number>& row) {
     const auto& s = x[membrane_stretch];
     add_transport(s.value, x, p, past, past.stretching, step, row[membrane_stretch]);
-    add_alignment(s, past.normal, within_a_step(step.numerics.production.stretching_alignment, step) * p.surface,
+    add_alignment(s, past.normal,
+                  within_a_step(step.numerics.production.stretching_alignment, p.epsilon, step) * p.surface,
                   row[membrane_stretch]);
-    add_diffusion(s, stretch_diffusivity(step) * p.surface, row[membrane_stretch]);
+    add_surface_diffusion<Number>(s, stretch_diffusivity(step) * p.surface, p, row[membrane_stretch]);
 }
 
 }  // namespace endoflow::phasefield::production

@@ -1,0 +1,153 @@
+#include "phasefield/schemes/production/layer_thickness.h"
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/vector.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "phasefield/schemes/production/constants.h"
+
+namespace endoflow::phasefield::production {
+
+namespace {
+
+constexpr double thinnest = constant("thinnest");
+constexpr double thinning_slope = constant("thinning_slope");
+constexpr double thinning_window = constant("thinning_window");
+
+/// The meridian by arc length, mirrored at the axis and straight beyond the rim.
+class Meridian {
+  public:
+    explicit Meridian(const MembraneCurve& curve) : curve_(&curve) {
+        for (std::size_t i = 0; i < curve.size(); ++i)
+            s.push_back(i == 0 ? 0 : s.back() + std::hypot(curve.r[i] - curve.r[i - 1], curve.z[i] - curve.z[i - 1]));
+    }
+
+    [[nodiscard]] PlanePoint at(double along) const {
+        const double distance = std::abs(along);
+        const auto after = std::upper_bound(s.begin() + 1, s.end() - 1, distance);
+        const auto i = static_cast<std::size_t>(after - s.begin());
+        const double t = (distance - s[i - 1]) / (s[i] - s[i - 1]);
+        const double r = curve_->r[i - 1] + t * (curve_->r[i] - curve_->r[i - 1]);
+        return {along < 0 ? -r : r, curve_->z[i - 1] + t * (curve_->z[i] - curve_->z[i - 1])};
+    }
+
+    std::vector<double> s;  // [nm]
+
+  private:
+    const MembraneCurve* curve_;
+};
+
+double eighth_power(double x) {
+    const double square = x * x, fourth = square * square;
+    return fourth * fourth;
+}
+
+/// The mean over `half_width` [nm] of arc on either side, by the trapezoidal rule.
+std::vector<double> averaged(const std::vector<double>& s, const std::vector<double>& values, double half_width) {
+    std::vector<double> integral(s.size(), 0), out(s.size());
+    for (std::size_t i = 1; i < s.size(); ++i)
+        integral[i] = integral[i - 1] + 0.5 * (values[i] + values[i - 1]) * (s[i] - s[i - 1]);
+    const auto up_to = [&](double along) {  // constant beyond the ends
+        if (along <= 0) return values.front() * along;
+        if (along >= s.back()) return integral.back() + values.back() * (along - s.back());
+        const auto i = static_cast<std::size_t>(std::upper_bound(s.begin(), s.end(), along) - s.begin());
+        const double step = along - s[i - 1], slope = (values[i] - values[i - 1]) / (s[i] - s[i - 1]);
+        return integral[i - 1] + step * (values[i - 1] + 0.5 * step * slope);
+    };
+    for (std::size_t i = 0; i < s.size(); ++i)
+        out[i] = (up_to(s[i] + half_width) - up_to(s[i] - half_width)) / (2 * half_width);
+    return out;
+}
+
+/// The principal curvatures [1/nm] from chords as long as `window`, for points of the contour lie on many cells.
+std::array<double, 2> curvatures(const Meridian& meridian, double s, double window) {
+    const PlanePoint before = meridian.at(s - window), here = meridian.at(s), after = meridian.at(s + window);
+    const double r1 = here.r - before.r, z1 = here.z - before.z, r2 = after.r - here.r, z2 = after.z - here.z;
+    const double turn = std::atan2(r1 * z2 - z1 * r2, r1 * r2 + z1 * z2);
+    const double along = turn / window, length = std::hypot(after.r - before.r, after.z - before.z);
+    const double around = here.r > window ? (after.z - before.z) / (length * here.r) : along;
+    return {along, around};
+}
+
+}  // namespace
+
+std::vector<double> thickness_along(const MembraneCurve& curve, const Parameters& p) {
+    const double widest = p.phase_field.epsilon, radius = p.phase_field.production.thinning * p.domain.radius;
+    std::vector<double> epsilon(curve.size(), widest);
+    if (radius == 0 || curve.size() < 3) return epsilon;
+    const Meridian meridian(curve);
+    for (std::size_t i = 0; i < epsilon.size(); ++i) {
+        const auto [along, around] = curvatures(meridian, meridian.s[i], thinning_window * widest);
+        const double narrowing = 1 + eighth_power(radius * along) + eighth_power(radius * around);
+        epsilon[i] = widest * std::max(thinnest, std::pow(narrowing, -0.125));
+    }
+    const auto limit = [&](std::size_t i, std::size_t neighbour) {
+        const double step = std::abs(meridian.s[i] - meridian.s[neighbour]);
+        epsilon[i] = std::min(epsilon[i], epsilon[neighbour] + thinning_slope * step);
+    };
+    for (std::size_t i = 1; i < epsilon.size(); ++i) limit(i, i - 1);
+    for (std::size_t i = epsilon.size() - 1; i > 0; --i) limit(i - 1, i);
+    return averaged(meridian.s, averaged(meridian.s, epsilon, widest), widest);
+}
+
+ThicknessCurve::ThicknessCurve(const MembraneCurve& curve, double time, const Parameters& parameters)
+    : r(curve.r), z(curve.z), epsilon(thickness_along(curve, parameters)) {
+    if (curve.u_r.size() != curve.size()) return;  // at rest
+    for (std::size_t i = 0; i < r.size(); ++i) {
+        r[i] += time * curve.u_r[i];
+        z[i] += time * curve.u_z[i];
+    }
+}
+
+double ThicknessCurve::at(double at_r, double at_z) const {
+    double least = std::numeric_limits<double>::max(), out = epsilon.front();
+    for (std::size_t i = 0; i + 1 < r.size(); ++i) {
+        const double edge_r = r[i + 1] - r[i], edge_z = z[i + 1] - z[i];
+        const double square = edge_r * edge_r + edge_z * edge_z;
+        const double projected = (at_r - r[i]) * edge_r + (at_z - z[i]) * edge_z;
+        const double t = square > 0 ? std::clamp(projected / square, 0.0, 1.0) : 0;
+        const double to_r = r[i] + t * edge_r - at_r, to_z = z[i] + t * edge_z - at_z;
+        const double distance = to_r * to_r + to_z * to_z;
+        if (distance >= least) continue;
+        least = distance;
+        out = epsilon[i] + t * (epsilon[i + 1] - epsilon[i]);
+    }
+    return out;
+}
+
+CellThickness::CellThickness(ThicknessCurve curve, const dealii::Triangulation<2>& mesh)
+    : curve_(std::move(curve)), corners_(mesh.n_active_cells()) {
+    const dealii::FE_Q<2> element(1);
+    dealii::DoFHandler<2> dofs(mesh);
+    dofs.distribute_dofs(element);
+    dealii::IndexSet relevant;
+    dealii::DoFTools::extract_locally_relevant_dofs(dofs, relevant);
+    dealii::AffineConstraints<double> hanging(relevant);
+    dealii::DoFTools::make_hanging_node_constraints(dofs, hanging);
+    hanging.close();
+    dealii::Vector<double> values(dofs.n_dofs());  // of what this process sees
+    for (const auto& cell : dofs.active_cell_iterators())
+        if (!cell->is_artificial())
+            for (unsigned int v = 0; v < 4; ++v)
+                values(cell->vertex_dof_index(v, 0)) = curve_.at(cell->vertex(v)[0], cell->vertex(v)[1]);
+    hanging.distribute(values);
+    for (const auto& cell : dofs.active_cell_iterators())
+        if (cell->is_locally_owned())
+            for (unsigned int v = 0; v < 4; ++v)
+                corners_[cell->active_cell_index()][v] = values(cell->vertex_dof_index(v, 0));
+}
+
+PointThickness CellThickness::at(std::size_t active_cell, const CellBox& box, double x, double y) const {
+    const auto& [a, b, c, d] = corners_[active_cell];
+    const double lower = a + x * (b - a), upper = c + x * (d - c);
+    return {lower + y * (upper - lower), ((1 - y) * (b - a) + y * (d - c)) / box.hr, (upper - lower) / box.hz};
+}
+
+}  // namespace endoflow::phasefield::production
