@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdio>
 
 #include "boundary_integral/modes/run_modes.h"
 #include "command_line.h"
 #include "launcher.h"
+#include "process.h"
 #include "shared/support/error.h"
 
 namespace endoflow::cli {
@@ -37,15 +39,23 @@ int run(int argc, char** argv) {
     app.add_option("RUN_DIR", request.run, "directory of the run")->required();
     app.add_option("-o,--output", request.directory, "directory of the result [RUN_DIR/modes]");
     app.add_option("--modes", modes, "FIRST:LAST azimuthal modes [1:8]");
-    app.add_option("--times", request.times, "at the shapes nearest to this many evenly spread times [20]");
+    app.add_option("--times", request.times, "at this many evenly spread times, and at budding [20]");
+    app.add_option("--tolerance", request.tolerance, "relative error of a perturbation in one step [0.001]");
+    bool tables_only = false;
+    app.add_flag("--tables-only", tables_only, "no plots, no page, no surfaces");
     if (!parse(app, argc, argv)) return 0;
     read_range(modes, request.first_mode, request.last_mode);
     if (request.directory.empty()) request.directory = request.run / "modes";
     require_one_process("endoflow modes", "");
     openblas_set_num_threads(1);  // the layers' own threads share the work
-    boundary_integral::write_modes(request, [](const std::string& line) { fmt::print("{}\n", line); });
+    boundary_integral::write_modes(request, [](const std::string& line) {
+        fmt::print("{}\n", line);
+        std::fflush(stdout);
+    });
     fmt::print("results in {}\n", request.directory.string());
-    return 0;
+    if (tables_only) return 0;
+    std::fflush(stdout);
+    become_python("comparisons", {"modes", request.directory.string()});
 }
 
 }  // namespace

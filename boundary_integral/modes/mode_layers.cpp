@@ -5,6 +5,7 @@
 
 #include "boundary_integral/modes/azimuthal_kernels.h"
 #include "boundary_integral/operators/closest_point.h"
+#include "boundary_integral/operators/curve_offset.h"
 #include "boundary_integral/operators/membrane_layers.h"
 #include "boundary_integral/quadrature/singular_rules.h"
 #include "boundary_integral/support/parallel.h"
@@ -80,8 +81,7 @@ class Builder {
         return target.xi >= begin - slack && target.xi <= begin + sources_.space.element_width() + slack;
     }
 
-    // Differences from the Taylor polynomial about the target, see membrane_layers: x - x0 and n.(x - x0) keep their
-    // relative accuracy however close the two points are.
+    // Differences from the Taylor polynomial about the target.
     void add_own(const ModeTarget& target, Index element) {
         const MembraneSpace& space = sources_.space;
         const double begin = static_cast<double>(element) * space.element_width();
@@ -91,18 +91,10 @@ class Builder {
         const auto z = space.axial().taylor(sources_.state.z, rule.origin, element);
         for (std::size_t i = 0; i < rule.offsets.size(); ++i) {
             const double t = rule.offsets[i];
-            const auto p = [t](const std::array<double, 6>& d) {
-                return d[2] / 2 + t * (d[3] / 6 + t * (d[4] / 24 + t * d[5] / 120));
-            };
-            const auto q = [t](const std::array<double, 6>& d) {
-                return d[2] + t * (d[3] / 2 + t * (d[4] / 6 + t * d[5] / 24));
-            };
-            const double p_r = p(r), p_z = p(z), q_r = q(r), q_z = q(z);
-            const double cross =
-                t * t * ((r[1] * p_z - z[1] * p_r) + (q_r * z[1] - q_z * r[1]) + t * (q_r * p_z - q_z * p_r));
+            const CurveOffset offset = curve_offset(r, z, t);
             const PointBasis basis = point_basis(sources_.spaces, rule.origin + t, element);
             const CurvePoint x = curve_point(basis.quintic[1], basis.quintic[0], sources_.state);
-            deposit({target.at.r, x.r, t * (r[1] + t * p_r), t * (z[1] + t * p_z), x.normal_r, cross / x.g},
+            deposit({target.at.r, x.r, offset.r, offset.z, x.normal_r, offset.normal / x.g},
                     rule.weights[i] * x.r * x.g, basis);
         }
     }

@@ -4,15 +4,14 @@
 #include <utility>
 
 #include "boundary_integral/modes/azimuthal_kernels.h"
-#include "boundary_integral/quadrature/singular_rules.h"
 #include "boundary_integral/support/parallel.h"
+#include "boundary_integral/walls/panel_rule.h"
 
 namespace endoflow::boundary_integral {
 
 namespace {
 
 constexpr int points_per_side = 32;
-constexpr double near_distance = 1.2;  // in panel lengths
 
 std::size_t at(Index i) {
     return static_cast<std::size_t>(i);
@@ -36,19 +35,11 @@ class Builder {
     Index first_row_ = 0;
 
     void add_panel(const ModeWallTarget& target, const WallPanel& panel) {
-        const Index count = static_cast<Index>(walls_.rule().nodes.size());
-        if (target.node >= panel.first_node && target.node < panel.first_node + count) {
-            const double tau = walls_.nodes()[at(target.node)].tau;
-            add_points(target, panel, logarithmic_rule(panel.tau_begin, panel.tau_end, tau, rule_));
-            return;
-        }
-        const PanelApproach approach = walls_.approach(panel, target.at);
-        if (approach.distance > near_distance * approach.length) {
+        if (const auto rule = panel_rule(walls_, panel, target.at, target.node, rule_)) {
+            add_points(target, panel, *rule);
+        } else {
             add_nodes(target, panel);
-            return;
         }
-        add_points(target, panel,
-                   near_singular_rule(panel.tau_begin, panel.tau_end, approach.tau, approach.width, rule_));
     }
 
     // The normal offset is constant on a straight segment, exactly zero on the target's own line.

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
+#include <algorithm>
 #include <string>
 
 #include "shared/case/case_file.h"
 #include "shared/output/atomic_file.h"
 #include "shared/output/hdf5_file.h"
+#include "shared/output/restart_point.h"
 #include "shared/output/run_directory.h"
 #include "shared/output/run_record.h"
 #include "shared/support/error.h"
@@ -17,8 +18,6 @@ namespace endoflow::boundary_integral {
 namespace {
 
 constexpr std::size_t points_per_element = 8;
-constexpr std::uintmax_t largest_record = 1U << 26U;
-constexpr double largest_misfit = 1e-8;  // nm, of stored points against the spline through them
 
 /// Appends SECTION.KEY=VALUE of a section and of the sections within it.
 void add_overrides(const std::string& section, const RunRecord& keys, std::vector<std::string>& overrides) {
@@ -51,20 +50,6 @@ std::string group(std::size_t index) {
     return fmt::format("/shapes/{:06d}", index);
 }
 
-Eigen::VectorXd fitted(const SplineSpace& splines, const std::vector<double>& values) {
-    std::vector<double> points;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        points.push_back(static_cast<double>(i) / static_cast<double>(values.size() - 1));
-    }
-    const Eigen::Map<const Eigen::VectorXd> right(values.data(), static_cast<Index>(values.size()));
-    const Eigen::MatrixXd matrix = collocation_matrix(splines, points);
-    Eigen::VectorXd coefficients = matrix.householderQr().solve(right);
-    if ((matrix * coefficients - right).cwiseAbs().maxCoeff() > largest_misfit) {
-        throw IoError("shapes.h5: the points of a shape are not those of the sharp engine's splines");
-    }
-    return coefficients;
-}
-
 }  // namespace
 
 RecordedRun::RecordedRun(const std::filesystem::path& directory) {
@@ -78,18 +63,19 @@ RecordedRun::RecordedRun(const std::filesystem::path& directory) {
     const Hdf5File file(shapes_, Hdf5File::Mode::read);
     const std::size_t count = file.members("/shapes").size();
     if (count == 0) throw IoError(shapes_.string() + ": holds no shape");
-    for (std::size_t i = 0; i < count; ++i) times_.push_back(file.read_number_attribute(group(i), "time"));
+    std::size_t points = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        times_.push_back(file.read_number_attribute(group(i), "time"));
+        points = std::max(points, file.read_array(group(i) + "/r").size());
+    }
     parameters_ = parse_case("", source, as_overrides(record));
     require_modelled(parameters_, source);
-    parameters_.boundary_integral.elements =
-        static_cast<int>((file.read_array(group(0) + "/r").size() - 1) / points_per_element);
+    parameters_.boundary_integral.elements = static_cast<int>((points - 1) / points_per_element);
 }
 
-MembraneState RecordedRun::state(const MembraneSpace& space, std::size_t index) const {
+RecordedShape RecordedRun::shape(std::size_t index) const {
     const Hdf5File file(shapes_, Hdf5File::Mode::read);
-    const auto column = [&](const char* name) { return file.read_array(group(index) + "/" + name); };
-    return {fitted(space.radial(), column("r")), fitted(space.axial(), column("z")),
-            fitted(space.axial(), column("c"))};
+    return {file.read_array(group(index) + "/r"), file.read_array(group(index) + "/z")};
 }
 
 }  // namespace endoflow::boundary_integral

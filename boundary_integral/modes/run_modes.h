@@ -12,13 +12,15 @@ namespace endoflow::boundary_integral {
 struct ModesRequest {
     std::filesystem::path run, directory;
     int first_mode = 1, last_mode = 8;
-    std::size_t times = 20;  // spread evenly over the run's shapes
+    std::size_t times = 20;   // spread evenly from the run's start to its end; budding comes in addition
+    double tolerance = 1e-3;  // relative error of a perturbation in one step
 };
 
 /// Writes into the directory
-///     modes.csv        growth rates of the fastest modes at each time
-///     eigenshapes.h5   base shape and fastest mode at each time
-/// and calls `progress` with a line for each time. Throws InputError and IoError.
+///     modes.csv           growth rates of the fastest modes at each time
+///     perturbations.csv   what perturbations of the start have become by then
+///     eigenshapes.h5      base shape, fastest mode and worst perturbation at each time
+/// and calls `progress` with lines of text. Throws InputError, IoError and SolverError.
 void write_modes(const ModesRequest& request, const std::function<void(const std::string&)>& progress);
 
 }  // namespace endoflow::boundary_integral

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "boundary_integral/operators/closest_point.h"
+#include "boundary_integral/operators/curve_offset.h"
 #include "boundary_integral/quadrature/singular_rules.h"
 #include "boundary_integral/support/parallel.h"
 
@@ -139,28 +140,16 @@ class Builder {
         deposit(target.rows, 1, extra_measure_, basis);
     }
 
-    // The target lies in these elements: differences from the Taylor polynomial about it, so that x - x0 and n.(x - x0)
-    // keep their relative accuracy however close the two points are.
+    // The target lies in these elements: differences from the Taylor polynomial about it.
     void add_own_elements(const MembraneTarget& target, const OwnElements& elements) {
         for (const OwnElement& own : elements) {
             start_extra();
             const auto r = sources_.space.radial().taylor(sources_.state.r, own.rule.origin, own.element);
             const auto z = sources_.space.axial().taylor(sources_.state.z, own.rule.origin, own.element);
             for (std::size_t i = 0; i < own.rule.offsets.size(); ++i) {
-                const double t = own.rule.offsets[i];
-                // x - x0 = t (x' + t p),  x'(t) = x' + t q
-                const auto p = [t](const std::array<double, 6>& d) {
-                    return d[2] / 2 + t * (d[3] / 6 + t * (d[4] / 24 + t * d[5] / 120));
-                };
-                const auto q = [t](const std::array<double, 6>& d) {
-                    return d[2] + t * (d[3] / 2 + t * (d[4] / 6 + t * d[5] / 24));
-                };
-                const double p_r = p(r), p_z = p(z), q_r = q(r), q_z = q(z);
-                // g n.(x - x0) = r'(z - z0) - z'(r - r0) = t^2 [ x' x p + q x x' + t q x p ]
-                const double cross =
-                    t * t * ((r[1] * p_z - z[1] * p_r) + (q_r * z[1] - q_z * r[1]) + t * (q_r * p_z - q_z * p_r));
-                push(curve_point(own.radial_rows[i], own.axial_rows[i], sources_.state), t * (r[1] + t * p_r),
-                     t * (z[1] + t * p_z), cross, own.rule.weights[i]);
+                const CurveOffset offset = curve_offset(r, z, own.rule.offsets[i]);
+                push(curve_point(own.radial_rows[i], own.axial_rows[i], sources_.state), offset.r, offset.z,
+                     offset.normal, own.rule.weights[i]);
             }
             finish_extra(target, own.basis);
             leave_out(own.element);

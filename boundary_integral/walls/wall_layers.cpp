@@ -1,5 +1,5 @@
-#include "boundary_integral/quadrature/singular_rules.h"
 #include "boundary_integral/support/parallel.h"
+#include "boundary_integral/walls/panel_rule.h"
 #include "boundary_integral/walls/wall_panels.h"
 
 namespace endoflow::boundary_integral {
@@ -10,7 +10,6 @@ namespace {
 // moving membrane see the walls through the coarser one.
 constexpr int wall_points = 40;
 constexpr int membrane_points = 32;
-constexpr double near_distance = 1.2;  // in panel lengths
 
 std::size_t at(Index i) {
     return static_cast<std::size_t>(i);
@@ -42,21 +41,12 @@ class Builder {
     RingKernels kernels_;
 
     void add_panel(const WallTarget& target, const WallPanel& panel) {
-        const std::size_t count = walls_.rule().nodes.size();
-        const bool own = target.node >= panel.first_node && target.node < panel.first_node + static_cast<Index>(count);
-        if (own) {
-            const double tau = walls_.nodes()[at(target.node)].tau;
-            add_points(target, panel, logarithmic_rule(panel.tau_begin, panel.tau_end, tau, wall_rule_));
-            return;
-        }
-        const PanelApproach approach = walls_.approach(panel, target.at);
-        if (approach.distance > near_distance * approach.length) {
+        const QuadratureRule& base = target.node >= 0 ? wall_rule_ : membrane_rule_;
+        if (const auto rule = panel_rule(walls_, panel, target.at, target.node, base)) {
+            add_points(target, panel, *rule);
+        } else {
             add_nodes(target, panel);
-            return;
         }
-        add_points(target, panel,
-                   near_singular_rule(panel.tau_begin, panel.tau_end, approach.tau, approach.width,
-                                      target.node >= 0 ? wall_rule_ : membrane_rule_));
     }
 
     // Differences source - target on straight segments; the normal offset is constant, exactly zero on the target's own

@@ -12,8 +12,8 @@ from comparisons.files import write_text
 
 from .options import Parser, positive_integer
 
-#: Distance of points along the membrane (nm), and angle (degrees) between two meridians.
-SPACING, ANGLE_STEP = 0.8, 5.0
+#: Distance of points along the membrane, nm.
+SPACING = 0.8
 
 
 def parsed(arguments):
@@ -38,24 +38,17 @@ def parsed(arguments):
 def surface(shape, angle):
     """(points (n, 3), quads (m, 4), {array name: (n,) or (n, 3)}) of a Shape revolved about z by `angle` degrees.
 
-    Names end in their unit. A full turn shares its first meridian.
+    Names end in their unit.
     """
+    from comparisons.drawing.surfaces import Revolved
     from endoflow.curves import resample
 
     fields = ("c", "lambda_", "kappa", "u_r", "u_z")
     r, z, c, tension, curvature, u_r, u_z = resample(shape.r, shape.z, SPACING, *(getattr(shape, f) for f in fields))
-    closed = angle == 360
-    meridians = max(3, round(angle / ANGLE_STEP)) + (not closed)
-    phi = np.radians(np.linspace(0, angle, meridians, endpoint=not closed))
-    around = lambda values: np.tile(values, meridians)  # noqa: E731
-    outward = np.column_stack((np.repeat(np.cos(phi), len(r)), np.repeat(np.sin(phi), len(r))))
-    points = np.column_stack((outward * around(r)[:, None], around(z)))
-    velocity = np.column_stack((outward * around(u_r)[:, None], around(u_z)))
-    first = np.arange(meridians if closed else meridians - 1)[:, None] * len(r) + np.arange(len(r) - 1)
-    after = (first + len(r)) % (meridians * len(r))
-    quads = np.stack((first, first + 1, after + 1, after), axis=-1).reshape(-1, 4)
+    revolved = Revolved(r, z, angle)
     arrays = {"c": c, "tension_pN_per_nm": tension, "total_curvature_per_nm": curvature}
-    return points, quads, {**{name: around(values) for name, values in arrays.items()}, "velocity_nm_per_us": velocity}
+    values = {name: revolved.around(along) for name, along in arrays.items()}
+    return revolved.points, revolved.quads, {**values, "velocity_nm_per_us": revolved.vectors(u_r, u_z)}
 
 
 def run(options):

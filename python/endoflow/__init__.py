@@ -15,6 +15,7 @@ from .alarms import Alarm
 from .commands import compare, run, statics, sweep
 from .errors import EndoflowError, OutOfRangeError, RunDirectoryError
 from .fields import Fields
+from .modes import Modes, load_modes
 from .program import FileError, InputError, ProgramError, SolverError, program
 from .run_directory import Run, load
 from .shapes import Shape
@@ -25,6 +26,7 @@ __all__ = [
     "Fields",
     "FileError",
     "InputError",
+    "Modes",
     "OutOfRangeError",
     "ProgramError",
     "Run",
@@ -33,6 +35,7 @@ __all__ = [
     "SolverError",
     "compare",
     "load",
+    "load_modes",
     "program",
     "run",
     "statics",

@@ -5,8 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "boundary_integral/evolution/membrane_dynamics.h"
-#include "boundary_integral/modes/recorded_run.h"
+#include "boundary_integral/modes/perturbation_growth.h"
 #include "boundary_integral/modes/run_modes.h"
 #include "boundary_integral/modes/spectrum.h"
 #include "boundary_integral/simulation.h"
@@ -63,16 +62,9 @@ TEST_CASE("the modes of a run's directory are those of its shapes", "[modes]") {
     REQUIRE(run.times().size() == 13);  // at the start, eight within the first interval, at four multiples of it
     CHECK(run.parameters().boundary_integral.elements == 40);
 
-    // The first shape is the initial one: its coefficients come back to round-off.
-    const MembraneDynamics dynamics(parameters);
-    const MembraneState initial = dynamics.unpack(dynamics.initial_vector()), read = run.state(dynamics.space(), 0);
-    CHECK((read.r - initial.r).cwiseAbs().maxCoeff() < 1e-11);
-    CHECK((read.z - initial.z).cwiseAbs().maxCoeff() < 1e-11);
-    CHECK((read.c - initial.c).cwiseAbs().maxCoeff() < 1e-12);
-
     std::size_t lines = 0;
-    write_modes({scratch.path, scratch.path / "modes", 1, 2, 3}, [&](const std::string&) { ++lines; });
-    CHECK(lines == 3);
+    write_modes({scratch.path, scratch.path / "modes", 1, 2, 3, 1e-2}, [&](const std::string&) { ++lines; });
+    CHECK(lines == 5);  // how far the record is, three times, how many steps
     const std::vector<double> rates = growth_rates(scratch.path / "modes" / "modes.csv");
     REQUIRE(rates.size() == 6);
     for (const double rate : rates) CHECK(std::isfinite(rate));
@@ -82,6 +74,34 @@ TEST_CASE("the modes of a run's directory are those of its shapes", "[modes]") {
     const std::vector<double> w = shapes.read_array("/times/000002/mode_2/w");
     CHECK(w.size() == 321);
     CHECK(*std::max_element(w.begin(), w.end()) == Approx(1).epsilon(1e-12));  // largest displacement: 1 nm, real
+}
+
+TEST_CASE("perturbations of a run's start: the worst is worse than any other", "[modes]") {
+    const ScratchDirectory scratch;
+    const Parameters parameters = short_run();
+    {
+        RunOutput output(parameters, identity(parameters), scratch.path, StartMode::fresh);
+        output.finish(simulate(parameters, output));
+    }
+    const AlongRun run(RecordedRun(scratch.path), 1, 2);
+    CHECK(run.distance() < 0.01);  // a tenth of it are chords instead of arcs; the run's tolerance is 1e-4 nm a step
+    PerturbationGrowth growth(run, 1e-2);
+    for (const Perturbation& p : growth.perturbations(2)) {
+        if (p.initial == "coat") continue;  // no displacement
+        CHECK(p.peak == Approx(initial_amplitude).epsilon(1e-9));
+        CHECK(p.gain.value() == Approx(1).epsilon(1e-9));
+    }
+    growth.advance(0.02);
+    for (const int mode : {1, 2}) {
+        const std::vector<Perturbation> perturbations = growth.perturbations(mode);
+        REQUIRE(perturbations.size() == 5);
+        const Perturbation& worst = perturbations.back();
+        CHECK(worst.initial == "worst");
+        for (const Perturbation& p : perturbations) {
+            if (p.gain) CHECK(*p.gain <= *worst.gain * (1 + 1e-9));
+        }
+        CHECK(growth.worst_at_start(mode).peak == Approx(initial_amplitude).epsilon(1e-9));
+    }
 }
 
 TEST_CASE("a directory without a sharp run has no modes", "[modes]") {

@@ -1,0 +1,141 @@
+"""Plots, page and surfaces of `endoflow modes`, from tables of a membrane that is known in closed form.
+
+python3 tests/comparisons/test_modes.py
+"""
+
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import locations
+import h5py
+import numpy as np
+import endoflow
+import synthetic
+from browser import Browser, chromium
+
+TIMES, BUDDING = (0.0, 0.4, 0.8, 1.0), 0.8
+INITIAL = ("dome", "edge", "sheet", "coat", "worst")
+READY = "document.documentElement?.dataset.ready === 'true'"
+ORDERS = (1, 2, 3)
+
+
+def growth(mode, time):
+    """A rate, 1/µs."""
+    return (1.5 if mode == 1 else -mode) * (1 - 0.3 * time)
+
+
+def write_tables(directory):
+    """What endoflow-modes writes: w = sin(π s/L)^m, its amplitude 0.1 nm e^{−m t}."""
+    rates = ["time_us,mode,rank,growth_per_us,frequency_rad_per_us,peak_r_nm,peak_z_nm"]
+    followed = ["time_us,mode,initial,peak_nm,rms_nm,gain"]
+    with h5py.File(directory / "eigenshapes.h5", "w") as file:
+        file.create_group("times").attrs["budding_us"] = BUDDING
+        for number, time in enumerate(TIMES):
+            membrane = synthetic.budding_membrane(time, 1.0)
+            r, z, _ = membrane.curve(400)
+            slope_r, slope_z = np.gradient(r), np.gradient(z)
+            length = np.hypot(slope_r, slope_z)
+            group = file.create_group(f"times/{number:06d}")
+            group.attrs["time"] = time
+            base = {"r": r, "z": z, "normal_r": -slope_z / length, "normal_z": slope_r / length}
+            for name, values in {**base, "c": synthetic.concentration(r, z)}.items():
+                group[name] = values
+            for m in ORDERS:
+                w = np.sin(np.pi * np.linspace(0, 1, len(r))) ** m
+                mode = group.create_group(f"mode_{m}")
+                mode.attrs["growth_per_us"] = growth(m, time)
+                amplitude = 0.1 * np.exp(-m * time)
+                for name, values in {"w": w, "c": 0 * w, "worst": amplitude * w, "worst_at_start": 0.1 * w}.items():
+                    mode[name] = values
+                rates += [f"{time},{m},{rank},{growth(m, time) - rank},0,10,90" for rank in range(3)]
+                for name in INITIAL:
+                    gain = "" if name == "coat" else np.exp(-m * time)
+                    followed.append(f"{time},{m},{name},{amplitude},{amplitude / 3},{gain}")
+    (directory / "modes.csv").write_text("\n".join(rates) + "\n")
+    (directory / "perturbations.csv").write_text("\n".join(followed) + "\n")
+
+
+class ModesDirectory(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.directory = Path(cls.scratch.name)
+        write_tables(cls.directory)
+        cls.process = subprocess.run(
+            [sys.executable, locations.COMPARISONS, "modes", str(cls.directory)], capture_output=True, text=True
+        )
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def test_reader(self):
+        modes = endoflow.load_modes(self.directory)
+        self.assertEqual(modes.modes, list(ORDERS))
+        self.assertEqual(modes.initial_shapes, list(INITIAL))
+        self.assertEqual((modes.budding, modes.last_index), (BUDDING, 2))
+        np.testing.assert_allclose(modes.rates[2], [growth(2, time) for time in TIMES])
+        np.testing.assert_allclose(modes.perturbations[3, "edge"]["gain"], np.exp(-3 * np.array(TIMES)))
+        self.assertTrue(np.isnan(modes.perturbations[3, "coat"]["gain"]).all())
+
+    def test_everything_is_written(self):
+        self.assertEqual((self.process.returncode, self.process.stderr), (0, ""))
+        for name in ("modes_rates", "modes_perturbations", "modes_shapes"):
+            for suffix in ("png", "svg"):
+                self.assertGreater((self.directory / f"{name}.{suffix}").stat().st_size, 5000)
+        page = (self.directory / "report.html").read_text("utf-8")
+        self.assertIsNone(re.search(r'(?:src|href)="(?!data:)', page))
+        self.assertIn("0.1 nm becomes", page)
+
+    def test_displacements_of_the_surfaces(self):
+        from comparisons.drawing.mode_plots import surface
+
+        meridian = endoflow.load_modes(self.directory).meridians[-1]
+        points, quads, arrays = surface(meridian, 1.0)
+        self.assertEqual(quads.max(), len(points) - 1)
+        vectors = arrays["mode_2_displacement_nm"]
+        self.assertEqual(vectors.shape, points.shape)
+        size = np.linalg.norm(vectors, axis=1)
+        self.assertAlmostEqual(size.max(), 1, delta=1e-3)  # points 1 nm apart miss the hump's top by less
+        # Half a turn leaves mode 2 as it is and turns the vector; mode 1 changes its sign.
+        half = len(points) // 2
+        turned = np.array([-1, -1, 1])
+        np.testing.assert_allclose(vectors[half:] * turned, vectors[:half], atol=1e-12)
+        odd = arrays["mode_1_displacement_nm"]
+        np.testing.assert_allclose(odd[half:] * turned, -odd[:half], atol=1e-12)
+
+    def test_a_directory_without_modes(self):
+        with tempfile.TemporaryDirectory() as empty:
+            process = subprocess.run(
+                [sys.executable, locations.COMPARISONS, "modes", empty], capture_output=True, text=True
+            )
+        self.assertEqual(process.returncode, 4)
+        self.assertIn("holds no modes", process.stderr)
+
+    @unittest.skipUnless(chromium(), "chromium is not installed (Debian package chromium)")
+    def test_page(self):
+        picture = "document.getElementById('view').toDataURL()"
+        text = "document.getElementById('says').textContent"
+        with Browser() as browser:
+            browser.open(self.directory / "report.html", READY)
+            browser.evaluate("document.getElementById('turn').click()")
+            before = browser.evaluate(picture)
+            self.assertIn("m = 1: grows at +1.14/µs", browser.evaluate(text))  # at budding
+            browser.evaluate("document.querySelectorAll('input[name=mode]')[1].click()")
+            self.assertIn("m = 2: grows at −1.52/µs", browser.evaluate(text))
+            self.assertNotEqual(browser.evaluate(picture), before)
+            browser.evaluate("document.getElementById('turn').click()")
+            still = browser.evaluate(picture)
+            moved = f"new Promise(done => {{ const look = () => {picture} !== {still!r} ? done(true) : setTimeout(look, 20); look(); }})"
+            self.assertTrue(browser.evaluate(moved))
+            browser.resize(390, 800)
+            self.assertLessEqual(browser.evaluate("document.documentElement.scrollWidth"), 390)
+            self.assertEqual(browser.problems, [])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
