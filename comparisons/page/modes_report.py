@@ -62,12 +62,14 @@ def cards(modes):
         )
         note = f"largest growth rate: m = {m} at {modes.times[index]:.3g} µs"
         found.append((title, quantity(float(modes.rates[m][index]), 3, "1/µs"), note))
-        peaks = {m: modes.perturbations[m, "worst"]["peak_nm"][modes.last_index] for m in chosen}
-        worst = max(peaks, key=peaks.get)
-        note = f"the worst case, m = {worst}, {end_text(modes)}"
-        found.append(
-            (f"{INITIAL_AMPLITUDE:g} nm becomes", quantity(float(peaks[worst]), 3, "nm"), note)
-        )
+        peaks = {
+            (m, name): modes.perturbations[m, name]["peak_nm"][modes.last_index]
+            for m in chosen
+            for name in modes.initial_shapes
+        }
+        m, name = max(peaks, key=peaks.get)
+        note = f"at most, {end_text(modes)}: m = {m}, “{name}” in the table below"
+        found.append((f"{INITIAL_AMPLITUDE:g} nm becomes", quantity(float(peaks[m, name]), 3, "nm"), note))
     return found
 
 
@@ -76,7 +78,8 @@ def perturbation_table(modes):
     rows = []
     for name in modes.initial_shapes:
         values = [float(modes.perturbations[m, name]["peak_nm"][modes.last_index]) for m in modes.modes]
-        rows.append(("", [escaped(INITIAL_TITLES.get(name, name)), *(figures(value, 3) for value in values)]))
+        title = f"{INITIAL_TITLES.get(name, name)} (“{name}”)"
+        rows.append(("", [escaped(title), *(figures(value, 3) for value in values)]))
     return report.table([f"{INITIAL_AMPLITUDE:g} nm at the start", *(f"m = {m}" for m in modes.modes)], rows)
 
 
