@@ -40,7 +40,7 @@ int run(int argc, char** argv) {
     app.add_option("-o,--output", request.directory, "directory of the result [RUN_DIR/modes]");
     app.add_option("--modes", modes, "FIRST:LAST azimuthal modes [1:8]");
     app.add_option("--times", request.times, "at this many evenly spread times, and at budding [20]");
-    app.add_option("--tolerance", request.tolerance, "relative error of a perturbation in one step [0.001]");
+    app.add_option("--tolerance", request.tolerance, "relative error of a perturbation in one step [0.01]");
     bool tables_only = false;
     app.add_flag("--tables-only", tables_only, "no plots, no page, no surfaces");
     if (!parse(app, argc, argv)) return 0;

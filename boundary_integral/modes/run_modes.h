@@ -13,7 +13,7 @@ struct ModesRequest {
     std::filesystem::path run, directory;
     int first_mode = 1, last_mode = 8;
     std::size_t times = 20;   // spread evenly from the run's start to its end; budding comes in addition
-    double tolerance = 1e-3;  // relative error of a perturbation in one step
+    double tolerance = 1e-2;  // relative error of a perturbation in one step
 };
 
 /// Writes into the directory
