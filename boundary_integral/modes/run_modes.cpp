@@ -20,7 +20,7 @@ std::vector<double> times_of(const BaseTrajectory& trajectory, std::size_t count
     }
     if (const auto budding = trajectory.budding()) times.push_back(*budding);
     std::ranges::sort(times);
-    times.erase(std::ranges::unique(times).begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
     return times;
 }
 
