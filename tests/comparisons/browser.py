@@ -49,20 +49,19 @@ class Browser:
 
     def _start(self, width, height):
         """Launch the browser, which reads commands from descriptor 3 and writes answers to descriptor 4."""
-        taken = [os.open(os.devnull, os.O_RDONLY) for _ in range(2)]  # 3 and 4, if free: only open ones can be passed on
         command_read, self._commands = os.pipe()
         self._answers, answer_write = os.pipe()
-        ends = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (command_read, answer_write)]
+        ends = [fcntl.fcntl(end, fcntl.F_DUPFD_CLOEXEC, 10) for end in (command_read, answer_write)]
         self._process = subprocess.Popen(
             [chromium(), *SWITCHES, f"--user-data-dir={self._profile.name}", f"--window-size={width},{height}"],
             preexec_fn=lambda: [os.dup2(end, number) for end, number in zip(ends, (3, 4))],
-            pass_fds=(3, 4),
+            close_fds=False,  # 3 and 4 may be closed here; what else Python opened is not inherited
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
             start_new_session=True,
         )
-        for end in (command_read, answer_write, *ends, *taken):
+        for end in (command_read, answer_write, *ends):
             os.close(end)
         self._session = None
 
