@@ -38,26 +38,25 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
             const double r = box.r0 + box.hr * quadrature.point(q)[0];
             const double w = two_pi * quadrature.weight(q) * box.hr * box.hz * r;
             const auto& at = quadrature.point(q);
-            const auto [epsilon, epsilon_r, epsilon_z] =
-                step.thickness_at(cell->active_cell_index(), box, at[0], at[1]);
+            const PointThickness thickness = step.thickness_at(cell->active_cell_index(), box, at[0], at[1]);
+            const double epsilon = thickness.value;
+            const AtPoint<double> distance_here{psi.value[q], psi.r[q], psi.z[q]};
             const auto layer = layer_profile(psi.value[q], epsilon);
             const double gradient = std::hypot(psi.r[q], psi.z[q]), density = membrane_density(layer, step.weight);
-            const double sheet_r = psi.r[q] - psi.value[q] / epsilon * epsilon_r;
-            const double sheet_z = psi.z[q] - psi.value[q] / epsilon * epsilon_z;
-            const double length = std::hypot(sheet_r, sheet_z, gradient_floor);
+            const auto sheet = sheet_gradient(distance_here, thickness);
+            const double length = std::hypot(sheet.r, sheet.z, gradient_floor);
             const auto bending = stiffness_of(c.value[q], model);
             const double K = b.value[q] / bending.beta;
             const double nu = layer_viscosity(layer.phi, step.fluid, step.weight, numerics.viscosity_mean);
             const double hoop = ur.value[q] / r, shear = ur.z[q] + uz.r[q];
             const double stretching =
-                surface_divergence(sheet_r / length, sheet_z / length, ur.r[q], hoop, uz.z[q], shear);
+                surface_divergence(sheet.r / length, sheet.z / length, ur.r[q], hoop, uz.z[q], shear);
             integrals.area += w * layer.delta;
             integrals.molecules += w * density * c.value[q];
             integrals.stretching += w * density * s.value[q];
             const auto weight = energy_weight(layer, psi.value[q], epsilon);
             diagnostics.bending_energy +=
-                w * moment_energy({b.value[q], b.r[q], b.z[q]}, {psi.value[q], psi.r[q], psi.z[q]}, K, weight.value,
-                                  epsilon, model);
+                w * moment_energy({b.value[q], b.r[q], b.z[q]}, distance_here, K, weight.value, epsilon, model);
             diagnostics.viscous_dissipation +=
                 w * nu * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
             if (step.fluid.dynamics == Dynamics::geometric)
@@ -95,6 +94,25 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
     Vector at_rest = space.vector();
     at_rest.update_ghost_values();
     return measure_solution(space, model, step, solution, solution, at_rest, solution);
+}
+
+double molecules_of(const Space& space, const StepNumbers& step, const Vector& solution) {
+    const dealii::QGauss<2> quadrature(gauss_points(step.numerics));
+    ComponentField psi(space, distance, quadrature), c(space, molecule_density, quadrature);
+    double sum = 0;
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        const CellBox box = cell_box(cell);
+        const auto &position = psi.on(cell, box, solution), &density = c.on(cell, box, solution);
+        for (unsigned int q = 0; q < quadrature.size(); ++q) {
+            const auto& x = quadrature.point(q);
+            const double epsilon = step.thickness_at(cell->active_cell_index(), box, x[0], x[1]).value;
+            const double weight = membrane_density(layer_profile(position.value[q], epsilon), step.weight);
+            const double r = box.r0 + box.hr * x[0];
+            sum += two_pi * quadrature.weight(q) * box.hr * box.hz * r * weight * density.value[q];
+        }
+    }
+    return dealii::Utilities::MPI::sum(sum, space.dofs.get_communicator());
 }
 
 double layer_increment(const Space& space, const StepNumbers& step, const Vector& increment, const Vector& solution) {

@@ -21,10 +21,10 @@ constexpr double thinnest = constant("thinnest");
 constexpr double thinning_slope = constant("thinning_slope");
 constexpr double thinning_window = constant("thinning_window");
 
-/// The meridian by arc length, mirrored at the axis and straight beyond the rim.
-class Meridian {
+/// The curve by arc length, mirrored at the axis and straight beyond the rim.
+class ByArcLength {
   public:
-    explicit Meridian(const MembraneCurve& curve) : curve_(&curve) {
+    explicit ByArcLength(const MembraneCurve& curve) : curve_(&curve) {
         for (std::size_t i = 0; i < curve.size(); ++i)
             s.push_back(i == 0 ? 0 : s.back() + std::hypot(curve.r[i] - curve.r[i - 1], curve.z[i] - curve.z[i - 1]));
     }
@@ -67,8 +67,8 @@ std::vector<double> averaged(const std::vector<double>& s, const std::vector<dou
 }
 
 /// The principal curvatures [1/nm] from chords as long as `window`, for points of the contour lie on many cells.
-std::array<double, 2> curvatures(const Meridian& meridian, double s, double window) {
-    const PlanePoint before = meridian.at(s - window), here = meridian.at(s), after = meridian.at(s + window);
+std::array<double, 2> curvatures(const ByArcLength& path, double s, double window) {
+    const PlanePoint before = path.at(s - window), here = path.at(s), after = path.at(s + window);
     const double r1 = here.r - before.r, z1 = here.z - before.z, r2 = after.r - here.r, z2 = after.z - here.z;
     const double turn = std::atan2(r1 * z2 - z1 * r2, r1 * r2 + z1 * z2);
     const double along = turn / window, length = std::hypot(after.r - before.r, after.z - before.z);
@@ -82,19 +82,19 @@ std::vector<double> thickness_along(const MembraneCurve& curve, const Parameters
     const double widest = p.phase_field.epsilon, radius = p.phase_field.production.thinning * p.domain.radius;
     std::vector<double> epsilon(curve.size(), widest);
     if (radius == 0 || curve.size() < 3) return epsilon;
-    const Meridian meridian(curve);
+    const ByArcLength path(curve);
     for (std::size_t i = 0; i < epsilon.size(); ++i) {
-        const auto [along, around] = curvatures(meridian, meridian.s[i], thinning_window * widest);
+        const auto [along, around] = curvatures(path, path.s[i], thinning_window * widest);
         const double narrowing = 1 + eighth_power(radius * along) + eighth_power(radius * around);
         epsilon[i] = widest * std::max(thinnest, std::pow(narrowing, -0.125));
     }
     const auto limit = [&](std::size_t i, std::size_t neighbour) {
-        const double step = std::abs(meridian.s[i] - meridian.s[neighbour]);
+        const double step = std::abs(path.s[i] - path.s[neighbour]);
         epsilon[i] = std::min(epsilon[i], epsilon[neighbour] + thinning_slope * step);
     };
     for (std::size_t i = 1; i < epsilon.size(); ++i) limit(i, i - 1);
     for (std::size_t i = epsilon.size() - 1; i > 0; --i) limit(i - 1, i);
-    return averaged(meridian.s, averaged(meridian.s, epsilon, widest), widest);
+    return averaged(path.s, averaged(path.s, epsilon, widest), widest);
 }
 
 ThicknessCurve::ThicknessCurve(const MembraneCurve& curve, double time, const Parameters& parameters)
@@ -148,6 +148,10 @@ PointThickness CellThickness::at(std::size_t active_cell, const CellBox& box, do
     const auto& [a, b, c, d] = corners_[active_cell];
     const double lower = a + x * (b - a), upper = c + x * (d - c);
     return {lower + y * (upper - lower), ((1 - y) * (b - a) + y * (d - c)) / box.hr, (upper - lower) / box.hz};
+}
+
+std::shared_ptr<const CellThickness> thickness_on(const dealii::Triangulation<2>& mesh, ThicknessCurve curve) {
+    return curve.r.empty() ? nullptr : std::make_shared<const CellThickness>(std::move(curve), mesh);
 }
 
 }  // namespace endoflow::phasefield::production

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "phasefield/fem/mesh.h"
@@ -52,5 +53,8 @@ class CellThickness {
     ThicknessCurve curve_;
     std::vector<std::array<double, 4>> corners_;
 };
+
+/// The layer's thickness on a mesh; nothing for an empty curve: uniform.
+std::shared_ptr<const CellThickness> thickness_on(const dealii::Triangulation<2>& mesh, ThicknessCurve curve);
 
 }  // namespace endoflow::phasefield::production

@@ -91,14 +91,15 @@ MembraneWeight quartic_weight(const FluidParameters& fluid) {
     const double ratio = std::min(ratio_of(fluid), largest_ratio);
     const bool inverse = fluid.viscosity_extracellular > fluid.viscosity_intracellular;
     MembraneWeight weight = weight_of(constant("equal_square"), constant("equal_fourth"));
-    for (double reached = 1; reached < ratio || ratio == 1; reached *= ratio_step) {
+    double reached = 1;
+    do {
+        reached = std::min(ratio, reached * ratio_step);
         FluidParameters between = fluid;
         between.viscosity_extracellular = 1;
-        between.viscosity_intracellular = std::min(ratio, reached * ratio_step);
+        between.viscosity_intracellular = reached;
         if (inverse) std::swap(between.viscosity_extracellular, between.viscosity_intracellular);
         weight = without_excess(between, weight);
-        if (ratio == 1) break;
-    }
+    } while (reached < ratio);
     const auto margin = [&](double t) { return lowest_viscosity(weight, t, ratio_of(fluid)) - smallest_viscosity; };
     if (margin(1) >= 0) return weight;
     const double part = zero_of(margin, 0.0, 1.0);

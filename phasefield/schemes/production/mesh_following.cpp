@@ -45,7 +45,7 @@ void ProductionScheme::follow(const MembraneCurve& curve) {
     bool adapted = false;
     for (int pass = 0; pass < most_passes && adapt_once(curve); ++pass) adapted = true;
     if (!adapted) return;
-    if (numbers_.thickness) take_thickness(ThicknessCurve(numbers_.thickness->curve()));
+    if (numbers_.thickness) numbers_.thickness = thickness_on(*mesh_, numbers_.thickness->curve());
     solver_.reinit(space_);
     // Cells are coarsened outside of the layer alone; what that changes in ∫δ_m c is restored to round-off. s, a
     // density, stays: what changes in ∫δ_m s is the area that the layer measures, and would be a strain.
@@ -81,7 +81,7 @@ StepOutcome ProductionScheme::load(const std::filesystem::path& directory, const
     times_ = checkpoint.array("solution_times");
     load_mesh(directory, *mesh_);
     renew();
-    load_thickness(checkpoint, "thickness", *mesh_, numbers_);
+    numbers_.thickness = thickness_on(*mesh_, load_thickness(checkpoint, "thickness"));
     Transfer transfer(space_.dofs);
     solutions_.assign(times_.size(), space_.vector());
     std::vector<Vector*> targets;

@@ -28,10 +28,9 @@ template <class Number>
 Fields<Number> point_equations(const Fields<Number>& x, double r, const PointPast& past, const GradientChange& change,
                                const StepNumbers& step, const BendingModel& model) {
     const auto& psi = x[distance];
-    const auto& [epsilon, epsilon_r, epsilon_z] = past.thickness;
-    const Number relative = (1 / epsilon) * psi.value;
-    const Number sheet_r = psi.r - epsilon_r * relative, sheet_z = psi.z - epsilon_z * relative;
-    const Number inverse = inverse_root(sheet_r * sheet_r + sheet_z * sheet_z + gradient_floor * gradient_floor);
+    const double epsilon = past.thickness.value;
+    const SheetGradient<Number> sheet = sheet_gradient(psi, past.thickness);
+    const Number inverse = inverse_root(sheet.r * sheet.r + sheet.z * sheet.z + gradient_floor * gradient_floor);
     const auto layer = layer_profile(psi.value, epsilon);
     const Number density = membrane_density(layer, step.weight);
     const PointGeometry<Number> p{epsilon,
@@ -39,8 +38,8 @@ Fields<Number> point_equations(const Fields<Number>& x, double r, const PointPas
                                   layer.delta + surface_floor,
                                   density,
                                   chain(psi.value, cut_indicator(value_of(layer.phi), step.weight), value_of(density)),
-                                  sheet_r * inverse,
-                                  sheet_z * inverse,
+                                  sheet.r * inverse,
+                                  sheet.z * inverse,
                                   psi.r * psi.r + psi.z * psi.z,
                                   inverse};
     Fields<Number> row;

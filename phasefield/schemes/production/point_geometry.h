@@ -68,6 +68,17 @@ Number inverse_root(const Number& x) {
     return chain(x, f, -0.5 * f / value_of(x));
 }
 
+/// g = ε ∇(ψ/ε) = ∇ψ − (ψ/ε) ∇ε, normal to the layer's sheets of constant ψ/ε.
+template <class Number>
+struct SheetGradient {
+    Number r, z;
+};
+template <class Number>
+SheetGradient<Number> sheet_gradient(const AtPoint<Number>& psi, const PointThickness& thickness) {
+    const Number relative = (1 / thickness.value) * psi.value;
+    return {psi.r - thickness.r * relative, psi.z - thickness.z * relative};
+}
+
 /// What the rows share.
 template <class Number>
 struct PointGeometry {

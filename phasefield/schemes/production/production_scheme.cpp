@@ -87,19 +87,15 @@ void ProductionScheme::distribute() {
     close_constraints(space_, parameters_);
 }
 
-void ProductionScheme::take_thickness(const ThicknessCurve& thickness) {
-    numbers_.thickness = thickness.r.empty() ? nullptr : std::make_shared<const CellThickness>(thickness, *mesh_);
-}
-
 void ProductionScheme::restore_molecules() {
-    const double now = measure_solution(space_, model_, numbers_, solutions_.front()).integrals.molecules;
+    const double now = molecules_of(space_, numbers_, solutions_.front());
     if (now <= 0) return;
     for (auto& solution : solutions_) scale_component(space_, molecule_density, integrals_.molecules / now, solution);
 }
 
 void ProductionScheme::foresee_thickness(double tau) {
     if (parameters_.phase_field.production.thinning == 0) return;
-    take_thickness(ThicknessCurve(membrane_, tau, parameters_));
+    numbers_.thickness = thickness_on(*mesh_, ThicknessCurve(membrane_, tau, parameters_));
     restore_molecules();
 }
 

@@ -40,8 +40,6 @@ class ProductionScheme : public Scheme {
     void distribute();
     void renew();
     bool adapt_once(const MembraneCurve& curve);
-    /// Gives the layer that thickness on the present mesh; none: uniform.
-    void take_thickness(const ThicknessCurve& thickness);
     /// That of the membrane at the end of the step; the molecules keep their integral.
     void foresee_thickness(double tau);
     void restore_molecules();

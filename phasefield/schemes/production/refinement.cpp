@@ -101,13 +101,16 @@ std::vector<RefinedBand> refined_bands(const MembraneCurve& curve, const Paramet
     if (edge_levels > 0) out.push_back({path.of(patch_edge(curve)), layer_level + edge_levels, inner, outer});
     const auto thickness = thickness_along(curve, parameters);
     double thin = p.epsilon / cells_slack, cell = p.cell_size;
-    for (unsigned int level = 1; !thin_part(thickness, thin).empty(); ++level, thin /= 2, cell /= 2) {
+    unsigned int level = layer_level;
+    for (Indices part = thin_part(thickness, thin); !part.empty(); part = thin_part(thickness, thin)) {
         const double reach = p.band_width * thin;
-        out.push_back({path.of(thin_part(thickness, thin)), layer_level + level, reach, reach + cell});
+        out.push_back({path.of(part), ++level, reach, reach + cell});
+        thin /= 2;
+        cell /= 2;
     }
-    for (unsigned int level = 0; level < most_neck_levels; ++level) {
-        const Indices neck = narrow_part(curve, p.cell_size / (1U << level) / neck_cells);
-        if (!neck.empty()) out.push_back({path.of(neck), layer_level + level + 1, inner, outer});
+    for (unsigned int halvings = 0; halvings < most_neck_levels; ++halvings) {
+        const Indices neck = narrow_part(curve, p.cell_size / (1U << halvings) / neck_cells);
+        if (!neck.empty()) out.push_back({path.of(neck), layer_level + halvings + 1, inner, outer});
     }
     return out;
 }

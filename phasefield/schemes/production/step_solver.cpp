@@ -157,7 +157,7 @@ void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint&
     if (vectors.empty()) return;
     numbers.rate = checkpoint.scalar("factors_rate");
     numbers.profile_relaxation = checkpoint.scalar("factors_profile_relaxation");
-    load_thickness(checkpoint, "factors_thickness", space.dofs.get_triangulation(), numbers);
+    numbers.thickness = thickness_on(space.dofs.get_triangulation(), load_thickness(checkpoint, "factors_thickness"));
     const std::vector<Vector> solutions(vectors.begin() + vectors_of_guess, vectors.end());
     const StepPast history(space, numbers, solutions, checkpoint.array("factors_weights"),
                            checkpoint.array("factors_ahead"), vectors[1]);

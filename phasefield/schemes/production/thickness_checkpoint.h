@@ -1,8 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
-#include "phasefield/schemes/production/point_geometry.h"
+#include "phasefield/schemes/production/layer_thickness.h"
 #include "shared/output/checkpoint.h"
 
 namespace endoflow::phasefield::production {
@@ -16,13 +17,12 @@ inline void save_thickness(const std::shared_ptr<const CellThickness>& thickness
     checkpoint.arrays[name + "_epsilon"] = curve.epsilon;
 }
 
-inline void load_thickness(const Checkpoint& checkpoint, const std::string& name, const dealii::Triangulation<2>& mesh,
-                           StepNumbers& numbers) {
+inline ThicknessCurve load_thickness(const Checkpoint& checkpoint, const std::string& name) {
     ThicknessCurve curve;
     curve.r = checkpoint.array(name + "_r");
     curve.z = checkpoint.array(name + "_z");
     curve.epsilon = checkpoint.array(name + "_epsilon");
-    numbers.thickness = curve.r.empty() ? nullptr : std::make_shared<const CellThickness>(std::move(curve), mesh);
+    return curve;
 }
 
 }  // namespace endoflow::phasefield::production
