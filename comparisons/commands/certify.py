@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from comparisons.errors import IO_FAILURE, RUN_FAILED, StudyError
-from comparisons.files import named
+from comparisons.files import write_json
 from comparisons.studies.study import lock, program, report_failures, run_members
 
 from .options import case_parser, common_settings
@@ -66,9 +66,8 @@ def write_certificate(member, refined):
     record = json.loads(path.read_text(encoding="utf-8"))
     record["certificate"] = found
     beside = path.with_suffix(".json.new")
-    with named(path):
-        beside.write_text(json.dumps(record, indent=2, allow_nan=False) + "\n", encoding="utf-8")
-        os.replace(beside, path)
+    write_json(beside, record)
+    os.replace(beside, path)
     return found
 
 

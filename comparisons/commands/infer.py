@@ -12,7 +12,7 @@ from comparisons.errors import BAD_INPUT, StudyError
 from comparisons.files import write_json, write_text
 from comparisons.studies.study import lock, program
 
-from .options import Parser, positive_integer
+from .options import positive_integer, runs_parser
 
 #: Samples in posterior.csv.
 WRITTEN_SAMPLES = 4000
@@ -20,22 +20,9 @@ WRITTEN_SAMPLES = 4000
 
 def parsed(arguments):
     """The command line as a namespace."""
-    parser = Parser(
-        prog="endoflow infer",
-        description="Infer parameters from data: best fit, posterior, what the data separate.",
-        allow_abbrev=False,
-        epilog="Finished runs are not repeated and interrupted ones are continued when the command is given again.",
-    )
+    description = "Infer parameters from data: best fit, posterior, what the data separate."
+    parser = runs_parser("infer", description, "out/STUDY/infer")
     parser.add_argument("study", metavar="STUDY.toml", type=Path, help="case, unknowns with priors, data with errors")
-    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="where to write (default: out/STUDY/infer)")
-    parser.add_argument("--jobs", metavar="N", type=positive_integer, help="most runs at a time (default: all cores)")
-    parser.add_argument(
-        "--processes",
-        metavar="N",
-        type=positive_integer,
-        default=1,
-        help="MPI processes of each phase-field run (default: 1)",
-    )
     parser.add_argument(
         "--calibrate", metavar="N", type=positive_integer, help="do N cases with known truth as well: ranks and coverage"
     )

@@ -38,8 +38,8 @@ def positive_integer(text):
     return int(text)
 
 
-def study_parser(study, description, output):
-    """Parser of `endoflow STUDY` with the options every study has; output: what -o defaults to, for the help."""
+def runs_parser(study, description, output):
+    """Parser of `endoflow STUDY`, which makes runs; output: what -o defaults to, for the help."""
     parser = Parser(
         prog=f"endoflow {study}",
         description=description,
@@ -47,9 +47,6 @@ def study_parser(study, description, output):
         epilog="Finished runs are not repeated and interrupted ones are continued when the command is given again.",
     )
     parser.add_argument("-o", "--output", metavar="DIR", type=Path, help=f"where to write (default: {output})")
-    parser.add_argument(
-        "--set", metavar="section.key=value", action="append", default=[], help="for every run; may be repeated"
-    )
     parser.add_argument("--jobs", metavar="N", type=positive_integer, help="most runs at a time (default: all cores)")
     parser.add_argument(
         "--processes",
@@ -57,6 +54,15 @@ def study_parser(study, description, output):
         type=positive_integer,
         default=1,
         help="MPI processes of each phase-field run (default: 1)",
+    )
+    return parser
+
+
+def study_parser(study, description, output):
+    """The same with settings for every run."""
+    parser = runs_parser(study, description, output)
+    parser.add_argument(
+        "--set", metavar="section.key=value", action="append", default=[], help="for every run; may be repeated"
     )
     return parser
 

@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
 import numpy as np  # noqa: E402
 from scipy.stats import binom, chi2  # noqa: E402
 
-from comparisons.drawing.plots import save  # noqa: E402
+from comparisons.drawing.plots import save_all  # noqa: E402
 from comparisons.inference.calibration import GROUPS  # noqa: E402
 
 DATA, MODEL, LINEAR = "#333333", "#0072B2", "#D55E00"
@@ -26,24 +26,18 @@ def write_fit(problem, inference, results, bands, directory):
     if bands:
         figures["infer_data"] = ("Data with the 90 % band of the posterior", data(problem, bands))
     figures["infer_directions"] = ("What the data separate", directions(results["directions"]))
-    return _saved(figures, directory)
+    return save_all(figures, directory)
 
 
 def write_calibration(calibration, directory):
     """Write the plot of a calibration."""
     title = "Ranks of true values; grey: 99 % of what chance does"
-    return _saved({"infer_calibration": (title, ranks(calibration))}, directory)
+    return save_all({"infer_calibration": (title, ranks(calibration))}, directory)
 
 
 def write_sensitivity(sensitivity, directory):
     """Write the plot of Sobol indices."""
-    return _saved({"infer_sensitivity": ("Parts of the variance over the priors", sobol(sensitivity))}, directory)
-
-
-def _saved(figures, directory):
-    for name, (_, figure) in figures.items():
-        save(figure, directory, name)
-    return {name: title for name, (title, _) in figures.items()}
+    return save_all({"infer_sensitivity": ("Parts of the variance over the priors", sobol(sensitivity))}, directory)
 
 
 def data(problem, bands):

@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
 import numpy as np  # noqa: E402
 from matplotlib.colors import LinearSegmentedColormap  # noqa: E402
 
-from comparisons.drawing.plots import save  # noqa: E402
+from comparisons.drawing.plots import save_all  # noqa: E402
 
 #: From the lowest mode to the highest; lightness is monotone.
 MODE_COLOURS = LinearSegmentedColormap.from_list("modes", ("#8E1068", "#0072B2", "#56B4A0", "#B9C76A"))
@@ -39,9 +39,7 @@ def write_all(modes, directory):
         "modes_perturbations": ("What 0.1 nm becomes", perturbations(modes)),
         "modes_shapes": ("The fastest mode's displacement, drawn 4 nm large", shapes(modes)),
     }
-    for name, (_, figure) in figures.items():
-        save(figure, directory, name)
-    return {name: title for name, (title, _) in figures.items()}
+    return save_all(figures, directory)
 
 
 def colours(modes):

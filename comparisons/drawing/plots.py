@@ -41,6 +41,11 @@ def write_all(a, b, metrics, labels, directory):
     if covers_paper_times(metrics):
         title = "Both membranes at the times of the paper's Fig. 4"
         figures["membranes_paper_times"] = (title, membranes(a, b, style.PAPER_TIMES, labels, colours))
+    return save_all(figures, directory)
+
+
+def save_all(figures, directory):
+    """Write figures, {name: (title, figure)}, into directory (Path); returns {name: title}."""
     for name, (_, figure) in figures.items():
         save(figure, directory, name)
     return {name: title for name, (title, _) in figures.items()}

@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
 import numpy as np  # noqa: E402
 
 from comparisons.drawing.pictures import Panel, gallery  # noqa: E402
-from comparisons.drawing.plots import save  # noqa: E402
+from comparisons.drawing.plots import save_all  # noqa: E402
 
 #: Panels of the picture of the membrane.
 PANELS = 4
@@ -20,9 +20,7 @@ def write_all(run, directory):
         "run_membranes": ("The membrane, coloured by molecule concentration c", membranes(run)),
         "run_histories": ("Histories", histories(run)),
     }
-    for name, (_, figure) in figures.items():
-        save(figure, directory, name)
-    return {name: title for name, (title, _) in figures.items()}
+    return save_all(figures, directory)
 
 
 def membranes(run):

@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.ticker import LogLocator, NullFormatter, NullLocator  # noqa: E402
 
-from comparisons.drawing.plots import DRAWN_SPACING, legend_on_top, save, vertical_range  # noqa: E402
+from comparisons.drawing.plots import DRAWN_SPACING, legend_on_top, save_all, vertical_range  # noqa: E402
 from comparisons.measures.convergence import BUDDING, DISTANCES, PAIRS, at_time, error_of, value_of  # noqa: E402
 from endoflow.curves import resample  # noqa: E402
 
@@ -54,9 +54,7 @@ def write_all(sharp, diffuse, metrics, directory):
         "membranes": ("Membranes of all ε and the sharp one", membranes(sharp, diffuse, metrics["times_us"])),
         "histories": ("Histories", histories(sharp, diffuse)),
     }
-    for name, (_, figure) in figures.items():
-        save(figure, directory, name)
-    return {name: title for name, (title, _) in figures.items()}
+    return save_all(figures, directory)
 
 
 def shades(colours, count):
