@@ -10,6 +10,7 @@ is being written. Ends with 1 and says what differs when something was lost.
 """
 
 import argparse
+import contextlib
 import os
 import random
 import subprocess
@@ -250,6 +251,11 @@ def kill_and_restart(options, root):
     )
 
 
+def directory_of_runs(keep):
+    """A context with the directory `keep` (Path), or without one with a directory that goes with the context."""
+    return contextlib.nullcontext(keep) if keep else tempfile.TemporaryDirectory()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=Path, help="the command endoflow")
@@ -264,11 +270,8 @@ def main():
     options.program = options.program.resolve()
     options.until = options.until or UNTIL[options.engine]
     try:
-        if options.keep:
-            kill_and_restart(options, options.keep)
-        else:
-            with tempfile.TemporaryDirectory() as scratch:
-                kill_and_restart(options, Path(scratch))
+        with directory_of_runs(options.keep) as directory:
+            kill_and_restart(options, Path(directory))
     except Lost as loss:
         print(f"LOST: {loss}", file=sys.stderr)
         return 1

@@ -17,13 +17,12 @@ import random
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import pairs_oracle as oracle
-from kill_and_restart import SETTINGS
+from kill_and_restart import SETTINGS, directory_of_runs
 
 UNTIL = {"boundary-integral": 5e-4, "phase-field": 2e-4}
 PATCHES = (18, 22)  # nm: two problems whose masses and energies differ by tens of per cent
@@ -203,11 +202,8 @@ def main():
     options.program = options.program.resolve()
     options.until = options.until or UNTIL[options.engine]
     try:
-        if options.keep:
-            random_pairs(options, options.keep)
-        else:
-            with tempfile.TemporaryDirectory() as scratch:
-                random_pairs(options, Path(scratch))
+        with directory_of_runs(options.keep) as directory:
+            random_pairs(options, Path(directory))
     except oracle.Wrong as wrong:
         print(f"WRONG (--seed {options.seed}): {wrong}", file=sys.stderr)
         return 1

@@ -36,16 +36,20 @@ ShapeIntegrals at(const StationaryState& state, const std::string& key, double v
     return shape_integrals(path(value), solved->solution, default_rule);
 }
 
-/// dG/d(key) by differences of fourth order.
+/// df/dx by differences of fourth order.
+template <class Function>
+double derivative(const Function& f, double x, double step) {
+    return (8 * (f(x + step) - f(x - step)) - (f(x + 2 * step) - f(x - 2 * step))) / (12 * step);
+}
+
+/// dG/d(key).
 double slope_of_potential(const StationaryState& state, const std::string& key, double step) {
     const double here = std::get<double>(find_parameter(key)->get(state.parameters));
     const CasePath path = path_in(state.parameters, key);
     const auto potential = [&](double value) {
         return at(state, key, value).potential(loads_of(path(value).parameters));
     };
-    return (8 * (potential(here + step) - potential(here - step)) -
-            (potential(here + 2 * step) - potential(here - 2 * step))) /
-           (12 * step);
+    return derivative(potential, here, step);
 }
 
 struct Snap {
@@ -123,10 +127,8 @@ TEST_CASE("where coupled molecules move, dG = A dσ − V dp − z̄ dF − μ c
     const auto check = [&](const std::string& key, double step, double expected) {
         const double value = std::get<double>(find_parameter(key)->get(parameters));
         const auto area = [&](double of) { return at(state, key, of).area; };
-        const double area_slope =
-            (8 * (area(value + step) - area(value - step)) - (area(value + 2 * step) - area(value - 2 * step))) /
-            (12 * step);
-        CHECK(slope_of_potential(state, key, step) + brought * area_slope == Approx(expected).epsilon(1e-8));
+        CHECK(slope_of_potential(state, key, step) + brought * derivative(area, value, step) ==
+              Approx(expected).epsilon(1e-8));
     };
     check("membrane.pole_force", 0.05, -here.extension);
     check("fluid.pressure_difference", 1e-5, -here.volume);
