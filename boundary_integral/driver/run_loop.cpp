@@ -6,6 +6,7 @@
 #include "boundary_integral/driver/integrator_checkpoint.h"
 #include "boundary_integral/driver/neck_events.h"
 #include "boundary_integral/driver/output_series.h"
+#include "shared/model/time_scale.h"
 #include "shared/support/interruption.h"
 
 namespace endoflow::boundary_integral {
@@ -24,7 +25,7 @@ class RunLoop {
           events_(parameters, dynamics_, output),
           series_(parameters, dynamics_, flow_, output),
           start_(start()),
-          integrator_(problem(), start_, {parameters.time.max_step, smallest_step}) {}
+          integrator_(problem(), start_, {longest_step(parameters), smallest_step}) {}
 
     ExitReason execute() {
         if (!output_.restart_point()) begin();
@@ -98,7 +99,7 @@ class RunLoop {
             series_.restore(*checkpoint);
             return restored_start(*checkpoint, dynamics_.size(), output_.directory().string());
         }
-        return {0.0, parameters_.time.initial_step, dynamics_.initial_vector()};
+        return {0.0, first_step(parameters_), dynamics_.initial_vector()};
     }
 
     void make_operators(const Eigen::VectorXd& predicted) {

@@ -9,6 +9,7 @@
 #include "boundary_integral/evolution/observation.h"
 #include "boundary_integral/integration/stiff_integrator.h"
 #include "shared/geometry/observables.h"
+#include "shared/model/time_scale.h"
 
 namespace endoflow::boundary_integral {
 
@@ -32,8 +33,8 @@ BaseTrajectory::BaseTrajectory(const MembraneDynamics& dynamics, const Parameter
     problem.jacobian = [&] { return dynamics.jacobian(latest); };
     problem.error_scales = dynamics.error_scales(request.start, request.tolerance, request.tolerance);
     operators = dynamics.operators(request.start);
-    StiffIntegrator integrator(problem, {0.0, parameters.time.initial_step, request.start},
-                               {parameters.time.max_step, smallest_step});
+    StiffIntegrator integrator(problem, {0.0, first_step(parameters), request.start},
+                               {longest_step(parameters), smallest_step});
     const auto neck_radius = [&](const Eigen::VectorXd& y) {
         const auto neck = find_neck(dynamics.space(), dynamics.unpack(y));
         return neck ? neck->radius : std::numeric_limits<double>::infinity();

@@ -9,6 +9,7 @@
 #include "shared/model/bending_model.h"
 #include "shared/model/initial_condition.h"
 #include "shared/model/loads.h"
+#include "shared/model/time_scale.h"
 #include "shared/support/error.h"
 
 namespace endoflow {
@@ -98,9 +99,9 @@ void check_molecules(const Parameters& p, const Require& require) {
 }
 
 void check_times(const Parameters& p, const Require& require) {
-    require(p.time.initial_step <= p.time.max_step,
-            fmt::format("time.initial_step = {} µs must not exceed time.max_step = {} µs", p.time.initial_step,
-                        p.time.max_step));
+    require(first_step(p) <= longest_step(p),
+            fmt::format("time.initial_step = {:.5g} µs must not exceed time.max_step = {:.5g} µs", first_step(p),
+                        longest_step(p)));
     const auto check_interval = [&](const char* name, double interval) {
         require(p.time.end <= most_outputs * interval,
                 fmt::format("output.{} = {} µs gives more than {} files or shapes until time.end = {} µs; enlarge it",

@@ -261,15 +261,15 @@ std::vector<ParameterRow> production_scheme_rows() {
         return p.phase_field.production;
     };
     return {
-        row("phase_field.production", "profile_relaxation", production, &S::profile_relaxation, "nm/µs", positive(1e9),
-            "M", "flux along the normal that keeps |∇ψ| = 1, at most 2000 times the membrane's speed"),
-        row("phase_field.production", "tension_alignment", production, &S::tension_alignment, "nm^3/(pN µs)",
-            positive(1e9), "", "keeps λ constant across the layer"),
-        row("phase_field.production", "tension_leak", production, &S::tension_leak, "nm^3/(pN µs)", positive(1e6), "",
+        row("phase_field.production", "profile_relaxation", production, &S::profile_relaxation, "V", positive(1e9), "M",
+            "flux along the normal that keeps |∇ψ| = 1, at most 2000 times the membrane's speed; V = β/((ν₁ + ν₂) R²)"),
+        row("phase_field.production", "tension_alignment", production, &S::tension_alignment, "1/ν", positive(1e9), "",
+            "keeps λ constant across the layer; ν is the smaller viscosity"),
+        row("phase_field.production", "tension_leak", production, &S::tension_leak, "1/ν", positive(1e6), "",
             "defines λ far from the layer; as small as it is, it leaks no area"),
-        row("phase_field.production", "strain_relaxation", production, &S::strain_relaxation, "1/µs", at_least(0, 1e6),
+        row("phase_field.production", "strain_relaxation", production, &S::strain_relaxation, "V/R", at_least(0, 1e9),
             "ζ", "rate at which accumulated area strain s - 1 is removed"),
-        row("phase_field.production", "stretching_alignment", production, &S::stretching_alignment, "nm^2/µs",
+        row("phase_field.production", "stretching_alignment", production, &S::stretching_alignment, "V R",
             positive(1e12), "", "keeps s constant across the layer"),
         row("phase_field.production", "thinning", production, &S::thinning, "domain.radius", at_least(0, 10), "ρ₀",
             "where a radius of curvature of the membrane is below it the layer is thinner in proportion; 0 = uniform"),
@@ -310,9 +310,10 @@ std::vector<ParameterRow> time_rows() {
         free_on_restart(row("time", "end", &P::time, &S::end, "µs", positive(1e9), "T", "simulated time")),
         free_on_restart(row("time", "tolerance", &P::time, &S::tolerance, "", {1e-12, 0.1}, "",
                             "relative accuracy of the time steps where they are error-controlled")),
-        free_on_restart(
-            row("time", "initial_step", &P::time, &S::initial_step, "µs", {1e-12, 1e3}, "", "first time step")),
-        free_on_restart(row("time", "max_step", &P::time, &S::max_step, "µs", positive(1e6), "", "largest time step")),
+        free_on_restart(row("time", "initial_step", &P::time, &S::initial_step, "µs", at_least(0, 1e3), "",
+                            "first time step; 0 = 1.0653e-6 (ν₁ + ν₂) R³/β, 1e-5 µs in the standard case")),
+        free_on_restart(row("time", "max_step", &P::time, &S::max_step, "µs", at_least(0, 1e6), "",
+                            "largest time step; 0 = 0.021307 (ν₁ + ν₂) R³/β, 0.2 µs in the standard case")),
     };
 }
 

@@ -80,11 +80,11 @@ struct PaperSchemeParameters {
 
 /// What scheme `production` alone reads.
 struct ProductionSchemeParameters {
-    double profile_relaxation = 2e4;
-    double tension_alignment = 30;
-    double tension_leak = 1e-2;
-    double strain_relaxation = 100;
-    double stretching_alignment = 2e5;
+    double profile_relaxation = 2350;
+    double tension_alignment = 0.03;
+    double tension_leak = 1e-5;
+    double strain_relaxation = 940;
+    double stretching_alignment = 293;
     double thinning = 0.175;
 };
 
@@ -120,8 +120,8 @@ struct BoundaryIntegralParameters {
 struct TimeParameters {
     double end = 20;
     double tolerance = 1e-4;
-    double initial_step = 1e-5;
-    double max_step = 0.2;
+    double initial_step = 0;
+    double max_step = 0;
 };
 
 struct OutputParameters {

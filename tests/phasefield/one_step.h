@@ -10,7 +10,7 @@ namespace endoflow::phasefield::production {
 /// Numbers of a step; rate a₀ and profile relaxation M as given [1/µs, nm/µs].
 inline StepNumbers step_numbers(const Parameters& p, double rate, double profile_relaxation) {
     const auto weight = membrane_weight(p.fluid, p.phase_field.viscosity_mean);
-    return {rate, p.phase_field, p.fluid, p.molecules, weight, profile_relaxation};
+    return {rate, p.phase_field, p.fluid, p.molecules, weight, scheme_rates(p), profile_relaxation};
 }
 
 /// The unknowns of a case on its coarse mesh and what solves for one step, on one process.

@@ -37,7 +37,7 @@ Fields<double> some_point() {
 }
 
 StepNumbers numbers(const Parameters& p) {
-    return step_numbers(p, 40, p.phase_field.production.profile_relaxation);
+    return step_numbers(p, 40, scheme_rates(p).profile_relaxation);
 }
 
 /// Reads a column of early.csv at the first row, 0.0005 µs.
@@ -152,7 +152,7 @@ TEST_CASE("forces are the variation of the energy", "[production]") {
                0.5 * weight.first * (1 + squared) * b.value -
                weight.thickness * b.value * (thickness.r * psi.r + thickness.z * psi.z) -
                0.5 * compliance * weight.value * std::pow(psi.r * b.r + psi.z * b.z, 2) -
-               0.5 * moment_floor / model.stiffness(0).value * (b.r * b.r + b.z * b.z);
+               0.5 * moment_floor * epsilon / model.stiffness(0).value * (b.r * b.r + b.z * b.z);
     };
     auto x = some_point();
     x[normal_force] = {};  // its own terms are not the energy's

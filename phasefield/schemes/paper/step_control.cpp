@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "shared/model/time_scale.h"
 #include "shared/support/error.h"
 
 namespace endoflow::phasefield::paper {
@@ -17,9 +18,9 @@ constexpr double smallest_fraction = 1e-4;  // of the first step
 }  // namespace
 
 StepControl::StepControl(const Parameters& p)
-    : nominal(p.time.initial_step),
-      initial_(p.time.initial_step),
-      limit_(std::min(p.phase_field.paper.max_step, p.time.max_step)),
+    : nominal(first_step(p)),
+      initial_(first_step(p)),
+      limit_(std::min(p.phase_field.paper.max_step, longest_step(p))),
       max_motion_(p.phase_field.paper.max_motion),
       ramp_steps_(p.phase_field.paper.ramp_steps) {}
 

@@ -42,7 +42,7 @@ EquationPattern::EquationPattern(const Parameters& p, const BendingModel& model)
     past.normal = past.molecules_normal = {0.6, 0.8};
     past.thickness = {p.phase_field.epsilon, 0.01, 0.02};
     const auto rows = point_equations(fields_from<FeatureDual>(values), 3.0, past, {0.3, 0.2},
-                                      {1.0, p.phase_field, p.fluid, p.molecules, {}}, model);
+                                      {1.0, p.phase_field, p.fluid, p.molecules, {}, scheme_rates(p)}, model);
     for (unsigned int row = 0; row < n_features; ++row)
         for (unsigned int column = 0; column < n_features; ++column)
             if (feature(rows[row / 3], row % 3).partial[column] != 0) entries.push_back({row, column});

@@ -45,8 +45,8 @@ Number molecular_energy(const Number& b, const Number& K, const Stiffness<Number
 inline double moment_compliance(double epsilon, const BendingModel& model) {
     return moment_alignment * epsilon * epsilon / model.stiffness(0).value;
 }
-inline double moment_smoothing(const BendingModel& model) {
-    return moment_floor / model.stiffness(0).value;
+inline double moment_smoothing(double epsilon, const BendingModel& model) {
+    return moment_floor * epsilon / model.stiffness(0).value;
 }
 
 /// The energy below per volume where it is stationary over b, when it is half its part linear in b [pN/nm²].
@@ -54,7 +54,7 @@ inline double moment_energy(const AtPoint<double>& b, const AtPoint<double>& psi
                             double epsilon, const BendingModel& model) {
     const double slope = psi.r * b.r + psi.z * b.z;
     return 0.5 * weight * (b.value * K + moment_compliance(epsilon, model) * slope * slope) +
-           0.5 * moment_smoothing(model) * (b.r * b.r + b.z * b.z);
+           0.5 * moment_smoothing(epsilon, model) * (b.r * b.r + b.z * b.z);
 }
 
 /// The bending energy as a functional of ψ, the moment b and c whose stationary value over b is E:
@@ -76,13 +76,13 @@ Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     const Stiffness<Number> m = stiffness_of(x[molecule_density].value, model);
     const EnergyWeight<Number> w = energy_weight(p.layer, psi.value, p.epsilon);
     const Number K = b.value / m.beta, density = 0.5 * K * b.value, mean = 0.5 * (1.0 + p.squared_gradient);
-    const double smoothing = moment_smoothing(model);
+    const double smoothing = moment_smoothing(p.epsilon, model);
     row[moment] = {w.value * (K - m.curvature) + w.first * mean, w.value * psi.r + smoothing * b.r,
                    w.value * psi.z + smoothing * b.z};
     const auto& thickness = past.thickness;
     const Number thinning = thickness.r * psi.r + thickness.z * psi.z, twist = w.first * b.value;
     row[moment].value += w.thickness * thinning;
-    row[normal_force] = {(p.density + surface_floor) * x[normal_force].value +
+    row[normal_force] = {(p.density + surface_floor / p.epsilon) * x[normal_force].value +
                              w.first * (psi.r * b.r + psi.z * b.z - m.curvature * b.value + density) +
                              w.second * mean * b.value + w.thickness_1 * b.value * thinning,
                          w.value * b.r + twist * psi.r + (thickness.r * w.thickness) * b.value,

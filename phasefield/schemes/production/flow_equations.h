@@ -6,8 +6,6 @@
 
 namespace endoflow::phasefield::production {
 
-inline constexpr double layer_pressure_alignment = constant("layer_pressure_alignment");
-inline constexpr double pressure_leak = constant("pressure_leak");
 inline constexpr double uneven_fade = constant("uneven_fade");
 
 /// (32), (33): momentum with the forces δ_m (G ∇ψ + e ∇c) − ∇·(δ_m λ P), and volume. The diffusion of G along the
@@ -40,22 +38,21 @@ void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Num
     }
     row[pressure].value = -divergence;
     const auto& q = x[pressure_layer];
-    row[pressure_layer].value = -p.layer.delta * (divergence + pressure_leak * q.value);
-    extend_multiplier(q, p, past, layer_pressure_alignment, step.numerics.production.tension_leak, row[pressure_layer]);
+    row[pressure_layer].value = -p.layer.delta * (divergence + step.rates.pressure_leak * q.value);
+    extend_multiplier(q, p, past, step.rates.layer_pressure_alignment, step.rates.tension_leak, row[pressure_layer]);
 }
 
-/// (34): P:∇u = ζ (s − 1) on the average across the layer. λ is kept constant along the normal by the alignment
-/// [nm³/(pN µs)], so that the membrane is one surface and not a stack of inextensible sheets; the leak [nm³/(pN µs)]
-/// only defines λ far from the layer.
+/// (34): P:∇u = ζ (s − 1) on the average across the layer. λ is kept constant along the normal by the alignment,
+/// so that the membrane is one surface and not a stack of inextensible sheets; the leak only defines λ far from the
+/// layer.
 template <class Number>
 void add_inextensibility(const Fields<Number>& x, const PointGeometry<Number>& p, const PointPast& past, double r,
                          const StepNumbers& step, Fields<Number>& row) {
     const auto &ur = x[velocity_r], &uz = x[velocity_z], &lambda = x[tension];
     const Number& s = x[membrane_stretch].value;
     const Number stretching = surface_divergence<Number>(p.normal_r, p.normal_z, ur.r, ur.value / r, uz.z, ur.z + uz.r);
-    row[tension].value = p.density * (stretching - step.numerics.production.strain_relaxation * (s - 1.0));
-    extend_multiplier(lambda, p, past, step.numerics.production.tension_alignment,
-                      step.numerics.production.tension_leak, row[tension]);
+    row[tension].value = p.density * (stretching - step.rates.strain_relaxation * (s - 1.0));
+    extend_multiplier(lambda, p, past, step.rates.tension_alignment, step.rates.tension_leak, row[tension]);
 }
 
 }  // namespace endoflow::phasefield::production

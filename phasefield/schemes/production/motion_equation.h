@@ -23,7 +23,7 @@ void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const P
 
     const Number changing_r = step.rate * psi.r + past.slope_r, changing_z = step.rate * psi.z + past.slope_z;
     const Number aligning = (step_alignment * p.epsilon * widest) * p.layer.squared_well;
-    const double far = step.numerics.production.profile_relaxation * widest * far_part;
+    const double far = step.rates.profile_relaxation * widest * far_part;
     const Number flux = (step.profile_relaxation * widest) * p.layer.squared_well * (n.r * psi.r + n.z * psi.z - 1.0);
     row[distance] = {rate,
                      aligning * normal_part(n, n.r, changing_r, n.z, changing_z) + (flux - far) * n.r + far * psi.r,

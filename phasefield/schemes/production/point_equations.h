@@ -35,7 +35,7 @@ Fields<Number> point_equations(const Fields<Number>& x, double r, const PointPas
     const Number density = membrane_density(layer, step.weight);
     const PointGeometry<Number> p{epsilon,
                                   layer,
-                                  layer.delta + surface_floor,
+                                  layer.delta + surface_floor / epsilon,
                                   density,
                                   chain(psi.value, cut_indicator(value_of(layer.phi), step.weight), value_of(density)),
                                   sheet.r * inverse,

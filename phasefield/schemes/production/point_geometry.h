@@ -9,6 +9,7 @@
 #include "phasefield/schemes/production/layer_thickness.h"
 #include "phasefield/schemes/production/layer_weights.h"
 #include "phasefield/schemes/production/membrane_weight.h"
+#include "phasefield/schemes/production/rates.h"
 #include "shared/numerics/forward.h"
 #include "shared/parameters/parameters.h"
 
@@ -46,9 +47,10 @@ struct StepNumbers {
     FluidParameters fluid;
     MoleculeParameters molecules;
     MembraneWeight weight;
-    double profile_relaxation = numerics.production.profile_relaxation;  // M of this step [nm/µs]
-    bool inextensible = true;                                            // s is one but for what the tension leaves
-    std::shared_ptr<const CellThickness> thickness{};                    // of the layer; none: uniform
+    SchemeRates rates;
+    double profile_relaxation = rates.profile_relaxation;  // M of this step [nm/µs]
+    bool inextensible = true;                              // s is one but for what the tension leaves
+    std::shared_ptr<const CellThickness> thickness{};      // of the layer; none: uniform
 
     /// ε at the point (x, y) of a unit cell.
     [[nodiscard]] PointThickness thickness_at(std::size_t active_cell, const CellBox& box, double x, double y) const {

@@ -9,6 +9,7 @@
 #include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/refinement.h"
 #include "shared/model/initial_condition.h"
+#include "shared/model/time_scale.h"
 #include "shared/support/error.h"
 
 namespace endoflow::phasefield::production {
@@ -40,10 +41,14 @@ ProductionScheme::ProductionScheme(const Parameters& parameters, MPI_Comm commun
       model_(parameters.membrane),
       mesh_(coarse_mesh(parameters, communicator)),
       space_(*mesh_, field_degrees(parameters.phase_field)),
-      numbers_{0, parameters.phase_field, parameters.fluid, parameters.molecules,
-               membrane_weight(parameters.fluid, parameters.phase_field.viscosity_mean)},
+      numbers_{0,
+               parameters.phase_field,
+               parameters.fluid,
+               parameters.molecules,
+               membrane_weight(parameters.fluid, parameters.phase_field.viscosity_mean),
+               scheme_rates(parameters)},
       solver_(parameters, model_, communicator, newton_part * position_tolerance(parameters)),
-      nominal_(parameters.time.initial_step) {
+      nominal_(first_step(parameters)) {
     numbers_.inextensible = parameters.membrane.inextensible;
 }
 
@@ -158,7 +163,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     foresee_thickness(tau);
     const auto bdf = bdf_coefficients(end, times_, order());
     numbers_.rate = bdf.rate;
-    numbers_.profile_relaxation = parameters_.phase_field.production.profile_relaxation;
+    numbers_.profile_relaxation = numbers_.rates.profile_relaxation;
     if (since_start_ > 0)
         numbers_.profile_relaxation = std::min(numbers_.profile_relaxation, relaxation_per_speed * speed_);
     const Vector predicted = polynomial(end, std::min(order() + 1, times_.size()));
@@ -217,7 +222,7 @@ void ProductionScheme::keep(double time, double tau, const StepOutcome& outcome)
     // A step that was cut short by a deadline does not shorten the next one.
     const double next = trial_factor_ * tau;
     nominal_ = tau < nominal_ && trial_factor_ >= 1 ? std::max(nominal_, next) : next;
-    nominal_ = std::min(nominal_, parameters_.time.max_step);
+    nominal_ = std::min(nominal_, longest_step(parameters_));
     speed_ = outcome.diagnostics.motion_max / tau;
     moved_ += trial_motion_;
     since_start_ += 1;
@@ -226,7 +231,7 @@ void ProductionScheme::keep(double time, double tau, const StepOutcome& outcome)
 void ProductionScheme::reject(double time, double tau) {
     nominal_ = std::clamp(trial_factor_, 0.2, 0.5) * tau;
     trial_factor_ = 0;
-    if (nominal_ < smallest_step * parameters_.time.initial_step)
+    if (nominal_ < smallest_step * first_step(parameters_))
         throw SolverError("step-size-underflow", "no acceptable time step at t = " + std::to_string(time) + " µs",
                           "use a smaller phase_field.cell_size or a larger phase_field.production.profile_relaxation");
 }

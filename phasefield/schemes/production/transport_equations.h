@@ -7,9 +7,6 @@
 
 namespace endoflow::phasefield::production {
 
-inline constexpr double least_normal_diffusivity = constant("least_normal_diffusivity");
-inline constexpr double molecule_leak = constant("molecule_leak");
-
 /// ∂(δ_m y)/∂t + ∇·(δ_m y v), v the fluid's velocity along the membrane and the level sets' own velocity across it. The
 /// two differ where the profile is being restored; with the fluid's velocity alone y would grow in the layer's tails.
 /// Across, δ_m v is −(∂H/∂t) n/g with H = ∫ δ_m dψ, for with BDF's ∂H/∂t a plane membrane keeps a constant y however
@@ -30,7 +27,7 @@ void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry
 /// shear rate × ε²/D_n, and the force e ∇c with them: with a constant D_n the volume's error grew as ε fell, and so it
 /// did with normals that lagged behind in the layer's tails by as little as a tenth of a step.
 inline double normal_diffusivity_of_molecules(double epsilon, const StepNumbers& step) {
-    const double least = least_normal_diffusivity / (epsilon * epsilon * epsilon);
+    const double least = step.rates.least_normal_diffusivity / (epsilon * epsilon * epsilon);
     return within_a_step(std::max(step.molecules.normal_diffusivity, least), epsilon, step);
 }
 
@@ -46,7 +43,7 @@ void add_surface_diffusion(const AtPoint<Number>& y, const Number& diffusivity, 
 /// What the tension leaves of P:∇u within a cell diffuses away in s, as fast as ζ relaxes s over a cell [nm²/µs].
 inline double stretch_diffusivity(const StepNumbers& step) {
     const double h = step.numerics.cell_size;
-    return step.numerics.stretching_diffusivity + step.numerics.production.strain_relaxation * h * h;
+    return step.numerics.stretching_diffusivity + step.rates.strain_relaxation * h * h;
 }
 
 /// The molecules ride on the membrane that the diffusion of s, D_s ∇_Γ s, moves along itself. Where P:∇u crowds the
@@ -69,7 +66,7 @@ void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     const Number phi2 = p.layer.phi * p.layer.phi, weight = cut_density(p.layer);
     add_alignment(c, past.molecules_normal, normal_diffusivity_of_molecules(p.epsilon, step) * p.surface,
                   row[molecule_density]);
-    add_diffusion(c, molecule_leak * (phi2 * phi2), row[molecule_density]);
+    add_diffusion(c, step.rates.molecule_leak * (phi2 * phi2), row[molecule_density]);
     if (step.inextensible) add_redistribution(c.value, x[membrane_stretch], p, weight, step, row[molecule_density]);
     row[molecule_potential].value = p.surface * mu.value;
     if (step.molecules.transport == Transport::cahn_hilliard) {
@@ -90,8 +87,7 @@ void add_stretching(const Fields<Number>& x, const PointGeometry<Number>& p, con
                     const StepNumbers& step, Fields<Number>& row) {
     const auto& s = x[membrane_stretch];
     add_transport(s.value, x, p, past, past.stretching, step, row[membrane_stretch]);
-    add_alignment(s, past.normal,
-                  within_a_step(step.numerics.production.stretching_alignment, p.epsilon, step) * p.surface,
+    add_alignment(s, past.normal, within_a_step(step.rates.stretching_alignment, p.epsilon, step) * p.surface,
                   row[membrane_stretch]);
     add_surface_diffusion<Number>(s, stretch_diffusivity(step) * p.surface, p, row[membrane_stretch]);
 }

@@ -1,0 +1,28 @@
+#include "phasefield/schemes/production/rates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "phasefield/schemes/production/constants.h"
+#include "shared/model/time_scale.h"
+
+namespace endoflow::phasefield::production {
+
+SchemeRates scheme_rates(const Parameters& p) {
+    const ProductionSchemeParameters& factors = p.phase_field.production;
+    const double radius = p.domain.radius, speed = radius / natural_time(p);
+    const double fluidity = 1 / std::min(p.fluid.viscosity_extracellular, p.fluid.viscosity_intracellular);
+    SchemeRates rates;
+    rates.profile_relaxation = factors.profile_relaxation * speed;
+    rates.strain_relaxation = factors.strain_relaxation * speed / radius;
+    rates.stretching_alignment = factors.stretching_alignment * speed * radius;
+    rates.least_normal_diffusivity = constant("least_normal_diffusivity") * speed * std::pow(radius, 4);
+    rates.molecule_leak = constant("molecule_leak") * speed;
+    rates.tension_alignment = factors.tension_alignment * fluidity;
+    rates.tension_leak = factors.tension_leak * fluidity;
+    rates.layer_pressure_alignment = constant("layer_pressure_alignment") * fluidity;
+    rates.pressure_leak = constant("pressure_leak") * fluidity / p.phase_field.epsilon;
+    return rates;
+}
+
+}  // namespace endoflow::phasefield::production

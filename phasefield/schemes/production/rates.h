@@ -1,0 +1,25 @@
+#pragma once
+
+#include "shared/parameters/parameters.h"
+
+namespace endoflow::phasefield::production {
+
+/// The scheme's own rates, diffusivities and compliances in nm, µs and pN: the numbers of [phase_field.production] and
+/// of constants.h, which have no unit, times the scales of the problem. So a problem in other units, or with all
+/// viscosities larger and all times longer by one factor, has the same solution.
+struct SchemeRates {
+    double profile_relaxation = 0;        // M at most [nm/µs]
+    double strain_relaxation = 0;         // ζ [1/µs]
+    double stretching_alignment = 0;      // of s [nm²/µs]
+    double least_normal_diffusivity = 0;  // of c, times ε³ [nm⁵/µs]
+    double molecule_leak = 0;             // of c [nm/µs]
+    double tension_alignment = 0;         // of λ [nm²/(pN µs)]
+    double tension_leak = 0;              // of λ and q [nm²/(pN µs)]
+    double layer_pressure_alignment = 0;  // of q [nm²/(pN µs)]
+    double pressure_leak = 0;             // ∇·u per q [nm/(pN µs)]
+};
+
+/// Scales: the box's radius R, the membrane's speed V = R/natural_time, the smaller viscosity ν, and ε.
+[[nodiscard]] SchemeRates scheme_rates(const Parameters& parameters);
+
+}  // namespace endoflow::phasefield::production

@@ -1,0 +1,33 @@
+#include "shared/model/time_scale.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shared/model/bending_model.h"
+
+namespace endoflow {
+
+namespace {
+
+/// Parts of natural_time: 10⁻⁵ and 0.2 µs in the standard case.
+constexpr double first_part = 1.0653e-6, longest_part = 0.021307;
+
+}  // namespace
+
+double natural_time(const Parameters& p) {
+    const BendingModel model(p.membrane);
+    const double stiffness = std::max(model.stiffness(0).value, model.stiffness(1).value), R = p.domain.radius;
+    if (p.fluid.dynamics == Dynamics::geometric)
+        return std::pow(R * p.molecules.interface_width, 2) / (p.fluid.normal_mobility * stiffness);
+    return (p.fluid.viscosity_extracellular + p.fluid.viscosity_intracellular) * std::pow(R, 3) / stiffness;
+}
+
+double first_step(const Parameters& p) {
+    return p.time.initial_step > 0 ? p.time.initial_step : first_part * natural_time(p);
+}
+
+double longest_step(const Parameters& p) {
+    return p.time.max_step > 0 ? p.time.max_step : longest_part * natural_time(p);
+}
+
+}  // namespace endoflow

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "shared/parameters/parameters.h"
+
+namespace endoflow {
+
+/// The time [µs] in which a membrane that is bent over the box's radius R relaxes: (ν₁ + ν₂) R³/β with fluids, R²
+/// ε_c²/(M β) without (the coat's edge, ε_c wide, then decides), β being the larger one of the bare and the coated
+/// membrane's and M fluid.normal_mobility. 9.4 µs in the standard case.
+[[nodiscard]] double natural_time(const Parameters& parameters);
+
+/// time.initial_step, or where that is 0 about 10⁻⁶ of natural_time [µs].
+[[nodiscard]] double first_step(const Parameters& parameters);
+
+/// time.max_step, or where that is 0 about 0.02 of natural_time [µs].
+[[nodiscard]] double longest_step(const Parameters& parameters);
+
+}  // namespace endoflow
