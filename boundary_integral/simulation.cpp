@@ -9,7 +9,6 @@
 #include "boundary_integral/driver/history_recorder.h"
 #include "boundary_integral/driver/run_loop.h"
 #include "boundary_integral/support/parallel.h"
-#include "shared/model/loads.h"
 #include "shared/support/error.h"
 
 namespace endoflow::boundary_integral {
@@ -17,7 +16,6 @@ namespace endoflow::boundary_integral {
 namespace {
 
 void require_offered(const Parameters& parameters) {
-    require_no_coupling(parameters, "boundary-integral");
     if (parameters.fluid.inertia) {
         throw InputError("fluid.inertia: the boundary-integral engine solves the Stokes equations; set it to false");
     }

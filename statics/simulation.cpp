@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "shared/case/case_checks.h"
+#include "shared/model/exchange.h"
 #include "shared/parameters/parameter_table.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
@@ -155,6 +156,7 @@ EngineIdentity identity(const Parameters& parameters) {
 }
 
 void require_stationary_model(const Parameters& parameters, const Request& request) {
+    require_no_exchange(parameters, "statics");
     if (is_vesicle(parameters)) {
         if (request.disc_mass) throw InputError("command line: --disc-mass does not go with a vesicle");
         (void)vesicle_case(parameters);

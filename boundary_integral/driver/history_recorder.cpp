@@ -24,9 +24,12 @@ const std::vector<OwnColumn<StepBalances>>& own_history_columns() {
     using B = StepBalances;
     static const std::vector<OwnColumn<B>> columns{
         {"dissipated_power_pN_nm_per_us", "∫ f·u", [](const B& b) { return b.energy.dissipated_power; }},
-        {"energy_rate_pN_nm_per_us", "dE/dt along the computed motion",
+        {"energy_rate_pN_nm_per_us", "d(E + E_c)/dt along the computed motion",
          [](const B& b) { return b.energy.energy_rate; }},
-        {"energy_balance_relative", "\\|dE/dt + ∫ f·u − diffusion\\| / ∫ f·u, with all that changes c in the material",
+        {"energy_balance_relative",
+         "\\|dE/dt + ∫ f·u − diffusion\\| / ∫ f·u, with all that changes c in the material, and with the two powers "
+         "below "
+         "added to ∫ f·u",
          [](const B& b) { return b.energy.residual(); }},
         {"force_balance_relative", "forces of membrane and pin band against the tractions on the walls",
          [](const B& b) { return b.flow.force; }},
@@ -38,6 +41,16 @@ const std::vector<OwnColumn<StepBalances>>& own_history_columns() {
         {"integrator_order", "order of the time step", [](const B& b) { return static_cast<double>(b.order); }},
         {"load_power_pN_nm_per_us", "power of rim tension, pressure and pole force",
          [](const B& b) { return b.energy.external_power; }},
+        {"line_energy_pN_nm", "E_c of the coat's edge, under energetic coupling",
+         [](const B& b) { return b.line_energy; }},
+        {"molecule_dissipation_pN_nm_per_us", "∫ M \\|∇μ\\|² of energetic coupling",
+         [](const B& b) { return b.energy.molecular_dissipation; }},
+        {"exchange_power_pN_nm_per_us", "E + E_c that molecules bring when they come and take when they leave",
+         [](const B& b) { return b.energy.exchange_power; }},
+        {"molecules_exchanged_nm2", "∫∫ j dA dt, coat that has come from outside since t = 0",
+         [](const B& b) { return b.exchanged; }},
+        {"molecule_balance_relative", "\\|∫ c dA − its first value − ∫∫ j dA dt\\| over the first value",
+         [](const B& b) { return b.molecule_balance; }},
     };
     return columns;
 }
@@ -45,7 +58,12 @@ const std::vector<OwnColumn<StepBalances>>& own_history_columns() {
 HistoryRecorder::HistoryRecorder(const Parameters& parameters, const MembraneDynamics& dynamics, RunOutput& output)
     : parameters_(parameters), dynamics_(dynamics), output_(output), strain_(dynamics.space()) {}
 
-void HistoryRecorder::record(double time, const Evaluation& evaluation, int order) {
+void HistoryRecorder::start(const Evaluation& evaluation) {
+    strain_rates_ = strain_.rates(evaluation);
+    molecules_.start(shape_integrals(dynamics_.space(), evaluation.state, parameters_.domain).mass);
+}
+
+void HistoryRecorder::record(double time, const Evaluation& evaluation, const StiffIntegrator& integrator) {
     const PhaseTimer timer(output_, "observables");
     const ShapeIntegrals shape = shape_integrals(dynamics_.space(), evaluation.state, parameters_.domain);
     if (shape.walls) shape.walls->require_clearance(time);
@@ -59,22 +77,29 @@ void HistoryRecorder::record(double time, const Evaluation& evaluation, int orde
     }
     row.bud_height_nm = shape.height;
     row.membrane_area_nm2 = shape.area;
-    row.bending_energy_pN_nm = 2.0 * std::numbers::pi * evaluation.energy.energy;
+    const double line_energy =
+        energetically_coupled(parameters_.molecules) ? dynamics_.line_energy(evaluation.state) : 0.0;
+    row.bending_energy_pN_nm = 2.0 * std::numbers::pi * evaluation.energy.energy - line_energy;
     row.molecule_mass_nm2 = shape.mass;
     MaterialRates strain_rates = strain_.rates(evaluation);
     strain_.advance(strain_rates_, strain_rates, row.step_us);
     strain_rates_ = std::move(strain_rates);
     row.area_strain_max = strain_.largest();
     row.volume_extracellular_nm3 = shape.extracellular_volume;
+    molecules_.advance(last_row_, time, [&](double t) { return dynamics_.exchanged_per_time(integrator.state_at(t)); });
     row.extra =
-        own_values(own_history_columns(), {energy_balance(dynamics_, evaluation), balances(dynamics_, evaluation),
-                                           evaluation.flow.inflow, shape.walls ? shape.walls->smallest() : 0.0, order});
+        own_values(own_history_columns(),
+                   {energy_balance(dynamics_, evaluation), balances(dynamics_, evaluation), evaluation.flow.inflow,
+                    shape.walls ? shape.walls->smallest() : 0.0, integrator.last_order(), line_energy,
+                    molecules_.exchanged(), molecules_.residual(shape.mass)});
     output_.record_step(row);
     last_row_ = time;
 }
 
 void HistoryRecorder::save(Checkpoint& checkpoint) const {
     checkpoint.scalars["last_row"] = last_row_;
+    checkpoint.scalars["first_molecule_mass"] = molecules_.first_mass();
+    checkpoint.scalars["molecules_exchanged"] = molecules_.exchanged();
     checkpoint.arrays["marker_xi"] = strain_.markers().xi;
     checkpoint.arrays["marker_log_growth"] = strain_.markers().log_growth;
     checkpoint.arrays["marker_drift_rate"] = strain_rates_.drift;
@@ -83,6 +108,7 @@ void HistoryRecorder::save(Checkpoint& checkpoint) const {
 
 void HistoryRecorder::restore(const Checkpoint& checkpoint) {
     last_row_ = checkpoint.scalar("last_row");
+    molecules_ = {checkpoint.scalar("first_molecule_mass"), checkpoint.scalar("molecules_exchanged")};
     strain_.restore({checkpoint.array("marker_xi"), checkpoint.array("marker_log_growth")});
     strain_rates_ = {checkpoint.array("marker_drift_rate"), checkpoint.array("marker_growth_rate")};
 }

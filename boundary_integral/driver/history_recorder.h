@@ -3,9 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "boundary_integral/driver/molecule_balance.h"
 #include "boundary_integral/evolution/material_strain.h"
 #include "boundary_integral/evolution/membrane_dynamics.h"
 #include "boundary_integral/evolution/observation.h"
+#include "boundary_integral/integration/stiff_integrator.h"
 #include "shared/output/history_columns.h"
 #include "shared/output/run_output.h"
 
@@ -18,6 +20,8 @@ struct StepBalances {
     double inflow;         // of membrane at the rim, nm/µs
     double wall_distance;  // nm, 0 without walls
     int order;             // of the integrator
+    double line_energy;    // E_c, pN nm
+    double exchanged, molecule_balance;
 };
 
 /// This engine's own columns of history.csv.
@@ -28,12 +32,12 @@ class HistoryRecorder {
   public:
     HistoryRecorder(const Parameters& parameters, const MembraneDynamics& dynamics, RunOutput& output);
 
-    /// The first rates of the markers, when no checkpoint is restored.
-    void start(const Evaluation& evaluation) { strain_rates_ = strain_.rates(evaluation); }
+    /// The first rates of the markers and the first mass of molecules, when no checkpoint is restored.
+    void start(const Evaluation& evaluation);
 
-    /// Adds a row. After a step `evaluation` holds the flow that made it; `order` is the integrator's.
-    /// Throws SolverError when the membrane is in a state that the model does not hold for.
-    void record(double time, const Evaluation& evaluation, int order);
+    /// Adds a row at a time inside the integrator's last step. At the step's end `evaluation` holds the flow that made
+    /// it. Throws SolverError when the membrane is in a state that the model does not hold for.
+    void record(double time, const Evaluation& evaluation, const StiffIntegrator& integrator);
 
     /// Time of the last row, µs.
     [[nodiscard]] double last_row() const { return last_row_; }
@@ -46,6 +50,7 @@ class HistoryRecorder {
     const MembraneDynamics& dynamics_;
     RunOutput& output_;
     MaterialStrain strain_;
+    MoleculeBalance molecules_;
     MaterialRates strain_rates_;  // at the last row
     double last_row_ = 0.0;       // µs
 };

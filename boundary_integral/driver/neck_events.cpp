@@ -31,7 +31,7 @@ void NeckEvents::record(const char* name, double time, const StiffIntegrator& in
                         OutputSeries& series) {
     series.write_shape_at(time, integrator);
     const Eigen::VectorXd y = integrator.state_at(time);
-    if (time > history.last_row()) history.record(time, dynamics_.evaluate(y), integrator.last_order());
+    if (time > history.last_row()) history.record(time, dynamics_.evaluate(y), integrator);
     const MembraneState state = dynamics_.unpack(y);
     const ShapeIntegrals shape = shape_integrals(dynamics_.space(), state, parameters_.domain);
     const auto neck = find_neck(dynamics_.space(), state);

@@ -39,7 +39,7 @@ class RunLoop {
             flow_.add(integrator_.time(), accepted);
             if (const auto reason = events_.look(integrator_, history_, series_)) return stop(*reason);
             series_.write_until(integrator_.time(), integrator_);
-            history_.record(integrator_.time(), accepted, integrator_.last_order());
+            history_.record(integrator_.time(), accepted, integrator_);
         }
         series_.write_shape_at(integrator_.time(), integrator_);
         return stop(ExitReason::done);

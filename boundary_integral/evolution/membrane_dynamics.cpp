@@ -1,5 +1,6 @@
 #include "boundary_integral/evolution/membrane_dynamics.h"
 
+#include <numbers>
 #include <utility>
 
 #include "boundary_integral/evolution/initial_curve.h"
@@ -24,8 +25,10 @@ MembraneDynamics::MembraneDynamics(const Parameters& parameters)
              parameters.domain.kind == DomainKind::box ? CurveEnd::clamped : CurveEnd::closed),
       model_(parameters.membrane),
       energy_(membrane_energy(parameters)),
+      bending_(bending_energy(parameters)),
       loads_(loads_of(parameters)),
       transport_(transport_law(parameters.molecules)),
+      exchange_(parameters.molecules),
       flow_(make_flow(parameters, space_)),
       mesh_(space_,
             {parameters.boundary_integral.mesh_curvature_length, parameters.boundary_integral.mesh_edge_weight,
@@ -105,9 +108,16 @@ Evaluation MembraneDynamics::evaluate(const Eigen::VectorXd& y,
                                       std::shared_ptr<const MobilityOperators> operators) const {
     const MembraneState state = unpack(y);
     const MembraneSamples samples = sample(space_, state);
-    Evaluation e{
-        state, samples, energy_derivatives(space_, state, energy_, Derivatives::first), std::move(operators), {}, {},
-        {},    {}};
+    Evaluation e{state,
+                 samples,
+                 energy_derivatives(space_, state, energy_, Derivatives::first),
+                 std::move(operators),
+                 {},
+                 {},
+                 {},
+                 {},
+                 {},
+                 {}};
     const double rim_energy_density =
         space_.end() == CurveEnd::clamped ? energy_density_at_rim(space_, state, energy_) : 0.0;
     const Eigen::VectorXd external = loads_.none() ? Eigen::VectorXd() : external_load(space_, samples, loads_);
@@ -122,9 +132,24 @@ Evaluation MembraneDynamics::evaluate(const Eigen::VectorXd& y,
         e.relative_velocity[i] =
             -(space_.radial_rows[i].evaluate(t_r) * p.r1 + space_.axial_rows[i].evaluate(t_z) * p.z1) / p.g;
     }
-    e.rate = pack(e.mesh_velocity, diffusion_rate(space_, samples, state.c, transport_) +
-                                       advection_rate(space_, samples, e.relative_velocity));
+    e.diffusion = diffusion_rate(space_, samples, state.c, transport_, e.energy);
+    e.exchange = exchange_rate(space_, samples, exchange_, bending_);
+    Eigen::VectorXd moments = e.diffusion + advection_rate(space_, samples, e.relative_velocity);
+    if (!exchange_.none()) moments += e.exchange;
+    e.rate = pack(e.mesh_velocity, moments);
     return e;
+}
+
+double MembraneDynamics::line_energy(const MembraneState& state) const {
+    const double both = energy_derivatives(space_, state, energy_, Derivatives::first).energy;
+    const double bending = energy_derivatives(space_, state, bending_, Derivatives::first).energy;
+    return 2.0 * std::numbers::pi * (both - bending);
+}
+
+double MembraneDynamics::exchanged_per_time(const Eigen::VectorXd& y) const {
+    if (exchange_.none()) return 0.0;
+    const MembraneState state = unpack(y);
+    return 2.0 * std::numbers::pi * exchange_rate(space_, sample(space_, state), exchange_, bending_).sum();
 }
 
 Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
@@ -165,8 +190,13 @@ Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
     const Eigen::MatrixXd rate_curve = pack_rows(velocity_curve + tangential_curve);
     const Eigen::MatrixXd rate_c = pack_rows(velocity_c + tangential_c);
 
-    const TransportDerivatives transport =
-        transport_derivatives(space_, e.samples, e.state.c, transport_, e.relative_velocity);
+    TransportDerivatives transport =
+        transport_derivatives(space_, e.samples, e.state.c, transport_, second, e.relative_velocity);
+    if (!exchange_.none()) {
+        const ExchangeDerivatives exchange = exchange_derivatives(space_, e.samples, exchange_, bending_);
+        transport.rate_from_c += exchange.from_c;
+        transport.rate_from_curve += exchange.from_curve;
+    }
     const Eigen::MatrixXd c_from_curve = pack_columns(transport.c_from_curve);
     const Eigen::MatrixXd advection = advection_from_mesh_velocity(space_, e.samples);
     const Eigen::MatrixXd moments_from_curve = pack_columns(transport.rate_from_curve) + advection * tangential_curve;

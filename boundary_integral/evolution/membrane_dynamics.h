@@ -11,6 +11,7 @@
 #include "boundary_integral/flow/flow_model.h"
 #include "boundary_integral/membrane/energy.h"
 #include "boundary_integral/membrane/external_loads.h"
+#include "boundary_integral/transport/surface_exchange.h"
 #include "boundary_integral/transport/surface_transport.h"
 #include "shared/model/bending_model.h"
 #include "shared/parameters/parameters.h"
@@ -26,6 +27,7 @@ struct Evaluation {
     FlowSolution flow;
     std::vector<double> relative_velocity;  // of the material against the mesh, tangential, at the Gauss points, nm/us
     Eigen::VectorXd mesh_velocity;          // curve_count, nm/us
+    Eigen::VectorXd diffusion, exchange;    // rates of the moments by either
     Eigen::VectorXd rate;                   // F(y)
 };
 
@@ -39,6 +41,7 @@ class MembraneDynamics {
     const FlowModel& flow_model() const { return *flow_; }
     const BoxFlow* box() const { return dynamic_cast<const BoxFlow*>(flow_.get()); }  // nullptr without walls
     const BendingModel& model() const { return model_; }
+    const TransportLaw& transport() const { return transport_; }
     Index size() const { return free_radial() + free_axial() + space_.axial_count(); }
 
     // Flat membrane or spheroid with the coat's equilibrium profile on a mesh that resolves it.
@@ -52,6 +55,12 @@ class MembraneDynamics {
     std::shared_ptr<const MobilityOperators> operators(const Eigen::VectorXd& y) const;
     Evaluation evaluate(const Eigen::VectorXd& y, std::shared_ptr<const MobilityOperators> operators) const;
 
+    // E_c of the coat's edge, pN nm.
+    double line_energy(const MembraneState& state) const;
+
+    // Molecules that come onto the membrane, nm^2 of coat per us.
+    double exchanged_per_time(const Eigen::VectorXd& y) const;
+
     // dF/dy at fixed operators, exact.
     Eigen::MatrixXd jacobian(const Evaluation& evaluation) const;
 
@@ -62,9 +71,10 @@ class MembraneDynamics {
     Parameters parameters_;
     MembraneSpace space_;
     BendingModel model_;
-    MembraneEnergy energy_;
+    MembraneEnergy energy_, bending_;  // E + E_c, E alone
     Loads loads_;
     TransportLaw transport_;
+    ExchangeLaw exchange_;
     std::unique_ptr<FlowModel> flow_;
     MeshMotion mesh_;
 

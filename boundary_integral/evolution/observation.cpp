@@ -83,7 +83,7 @@ ShapeIntegrals shape_integrals(const MembraneSpace& space, const MembraneState& 
 double EnergyBalance::residual() const {
     constexpr double slowest = 1e-9;  // 1/us: what changes the energy more slowly is a membrane at rest
     return std::abs(energy_rate + dissipated_power - diffusive_power - external_power) /
-           (std::abs(dissipated_power) + slowest * energy);
+           (std::abs(dissipated_power) + molecular_dissipation + std::abs(exchange_power) + slowest * energy);
 }
 
 EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& e) {
@@ -114,6 +114,12 @@ EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation&
     balance.diffusive_power = two_pi * e.energy.gradient_c.dot(c_rate - c_carried);
     balance.dissipated_power = e.flow.power;
     balance.external_power = e.flow.external_power;
+    const auto power_of = [&](const Eigen::VectorXd& rate) {  // of the moments, at fixed curve
+        const Eigen::VectorXd change = mass.solve(rate);
+        return two_pi * e.energy.gradient_c.dot(change);
+    };
+    if (dynamics.transport().energetic) balance.molecular_dissipation = -power_of(e.diffusion);
+    balance.exchange_power = power_of(e.exchange);
     return balance;
 }
 

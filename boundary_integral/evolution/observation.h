@@ -27,12 +27,14 @@ ShapeIntegrals shape_integrals(const MembraneSpace& space, const MembraneState& 
 // Energy balance of a state: rate of E along the computed motion against the power given to the fluid, the energy that
 // inflowing membrane brings along and the energy that diffusion of the molecules brings.
 struct EnergyBalance {
-    double energy;            // pN nm
-    double energy_rate;       // dE/dt, pN nm/us
-    double dissipated_power;  // int f.u dA, pN nm/us
-    double diffusive_power;   // dE/dt by diffusion of c, pN nm/us
-    double external_power;    // of the loads, pN nm/us
-    double residual() const;  // relative
+    double energy;                 // pN nm
+    double energy_rate;            // dE/dt, pN nm/us
+    double dissipated_power;       // int f.u dA, pN nm/us
+    double diffusive_power;        // dE/dt by all that changes c in the material, pN nm/us
+    double external_power;         // of the loads, pN nm/us
+    double molecular_dissipation;  // int M |grad mu|^2 of energetic coupling, pN nm/us
+    double exchange_power;         // dE/dt by molecules that come and go, pN nm/us
+    double residual() const;       // relative to the powers that only a motion, or exchange, has
 };
 EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& evaluation);
 

@@ -2,19 +2,11 @@
 
 #include <algorithm>
 
-#include "shared/numerics/forward.h"
+#include "boundary_integral/membrane/curve_variables.h"
 
 namespace endoflow::boundary_integral {
 
 namespace {
-
-// What the energy depends on at one point: the curve's derivatives, which alone make its geometry, then c and c'.
-enum Variable : std::size_t { var_r, var_r1, var_r2, var_z1, var_z2, var_c, var_c1, variable_count };
-constexpr std::size_t curve_variables = 5;
-using CurveJet = Jet<curve_variables>;
-using CurveDual = Dual<curve_variables>;
-using EnergyJet = Jet<variable_count>;
-using EnergyDual = Dual<variable_count>;
 
 CurveJet volume_jet(const CurvePoint& p) {
     const CurveJet r = CurveJet::variable(p.r, var_r);
@@ -25,17 +17,6 @@ CurveJet volume_jet(const CurvePoint& p) {
 CurveJet area_jet(const CurvePoint& p) {
     const CurveJet r1 = CurveJet::variable(p.r1, var_r1), z1 = CurveJet::variable(p.z1, var_z1);
     return CurveJet::variable(p.r, var_r) * sqrt(r1 * r1 + z1 * z1);
-}
-
-// kappa = -(r' z'' - z' r'')/g^3 - z'/(r g), 1/g^2 and r g: what the energy per d xi, e(kappa, c, c'^2/g^2) r g, has of
-// the curve. `Number` is CurveJet or CurveDual.
-template <class Number>
-std::array<Number, 3> geometry(const CurvePoint& p) {
-    const Number r1 = Number::variable(p.r1, var_r1), z1 = Number::variable(p.z1, var_z1);
-    const Number squared = r1 * r1 + z1 * z1, inverse = 1.0 / squared, root = sqrt(squared);
-    const Number cross = r1 * Number::variable(p.z2, var_z2) - z1 * Number::variable(p.r2, var_r2);
-    const Number area = Number::variable(p.r, var_r) * root;
-    return {-(cross * inverse + z1 / Number::variable(p.r, var_r)) / root, inverse, area};
 }
 
 // e(kappa, c, c'^2 w) A as a function of kappa, w, A, c, c'.
@@ -91,35 +72,6 @@ void add_of_curve(EnergyJet& sum, double factor, const CurveJet& x) {
         for (std::size_t j = 0; j < curve_variables; ++j) sum.second[i][j] += factor * x.second[i][j];
 }
 
-using Direction = std::array<double, variable_count>;
-
-// One basis function seen by the variables it moves: three of them from `first` on.
-struct Slot {
-    Index row;  // coefficient index in (r, z) or in c
-    std::size_t first;
-    std::array<double, 3> partial;  // d(variable)/d(coefficient)
-};
-
-struct LocalSlots {
-    std::array<Slot, 12> curve;
-    std::array<Slot, 6> concentration;
-};
-
-LocalSlots local_slots(const BasisRow& radial, const BasisRow& axial, Index radial_count) {
-    static_assert(var_r == 0 && var_z1 == 3 && var_c1 + 1 == variable_count);
-    LocalSlots slots{};
-    for (std::size_t j = 0; j < 6; ++j) {
-        slots.curve[j] = {radial.index[j], var_r, {radial.value[0][j], radial.value[1][j], radial.value[2][j]}};
-        slots.curve[6 + j] = {radial_count + axial.index[j], var_z1, {axial.value[1][j], axial.value[2][j], 0.0}};
-        slots.concentration[j] = {axial.index[j], var_z2, {0.0, axial.value[0][j], axial.value[1][j]}};
-    }
-    return slots;
-}
-
-double dot(const Direction& a, const Slot& slot) {
-    return a[slot.first] * slot.partial[0] + a[slot.first + 1] * slot.partial[1] + a[slot.first + 2] * slot.partial[2];
-}
-
 Direction hessian_times(const EnergyJet& jet, const Slot& slot) {
     Direction result;
     for (std::size_t i = 0; i < variable_count; ++i) result[i] = dot(jet.second[i], slot);
@@ -142,6 +94,7 @@ void add_second_derivatives(const EnergyJet& jet, double weight, const LocalSlot
     for (const Slot& column : slots.concentration) {
         const auto image = hessian_times(jet, column);
         for (const Slot& row : slots.curve) result.mixed(row.row, column.row) += weight * dot(image, row);
+        for (const Slot& row : slots.concentration) result.second_c(row.row, column.row) += weight * dot(image, row);
     }
 }
 
@@ -165,6 +118,7 @@ EnergyDerivatives energy_derivatives(const MembraneSpace& space, const MembraneS
     if (wanted == Derivatives::second) {
         result.hessian = Eigen::MatrixXd::Zero(space.curve_count(), space.curve_count());
         result.mixed = Eigen::MatrixXd::Zero(space.curve_count(), space.axial_count());
+        result.second_c = Eigen::MatrixXd::Zero(space.axial_count(), space.axial_count());
     }
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
         const CurvePoint p = curve_point(space.radial_rows[i], space.axial_rows[i], state);

@@ -16,6 +16,7 @@ struct EnergyDerivatives {
     Eigen::VectorXd gradient_c;  // dE/d(c coefficients), axial_count
     Eigen::MatrixXd hessian;     // curve_count x curve_count, with that of the constraints if multipliers are given
     Eigen::MatrixXd mixed;       // d gradient / d c, curve_count x axial_count
+    Eigen::MatrixXd second_c;    // d gradient_c / d c, axial_count x axial_count
 };
 
 enum class Derivatives { first, second };

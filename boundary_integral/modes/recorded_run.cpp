@@ -6,6 +6,8 @@
 #include <string>
 
 #include "shared/case/case_file.h"
+#include "shared/model/exchange.h"
+#include "shared/model/loads.h"
 #include "shared/output/atomic_file.h"
 #include "shared/output/hdf5_file.h"
 #include "shared/output/restart_point.h"
@@ -44,6 +46,8 @@ void require_modelled(const Parameters& p, const std::string& source) {
         throw InputError(source +
                          ": modes of a membrane under a load (membrane.rim_tension, membrane.pole_force, "
                          "fluid.pressure_difference) are not modelled");
+    require_no_coupling(p, "azimuthal modes'");
+    require_no_exchange(p, "azimuthal modes'");
 }
 
 std::string group(std::size_t index) {

@@ -63,14 +63,34 @@ PointVariation conductance_variation(const CurvePoint& p, double factor) {
     return {factor / p.g, -factor * p.r * p.r1 / cubed, -factor * p.r * p.z1 / cubed};
 }
 
-// mu of a law with an edge width, weakly: M mu = k K c + int p(c) phi dA
+// mu of a law with an edge width, weakly: M mu = k K c + int p(c) phi dA, or d(E + E_c)/dc
 Eigen::VectorXd chemical_potential(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& c,
-                                   const TransportLaw& law, const LuFactors& mass, const Eigen::MatrixXd& stiffness) {
+                                   const TransportLaw& law, const EnergyDerivatives& energy, const LuFactors& mass,
+                                   const Eigen::MatrixXd& stiffness) {
+    if (law.energetic) return mass.solve(energy.gradient_c);
     Eigen::VectorXd weak = law.edge_width * (stiffness * c);
     weak += assemble_vector(space, 0, [&](std::size_t i) {
         return law.potential(samples.c[i]).value * samples.curve[i].r * samples.curve[i].g;
     });
     return mass.solve(weak);
+}
+
+// Of k K c + int p(c) phi dA.
+struct WeakVariation {
+    Eigen::MatrixXd from_c, from_curve;
+};
+WeakVariation law_potential_variation(const MembraneSpace& space, const MembraneSamples& samples,
+                                      const TransportLaw& law, const Eigen::MatrixXd& stiffness) {
+    const auto& curve = samples.curve;
+    WeakVariation result{
+        law.edge_width * stiffness +
+            assemble(space, 0, 0,
+                     [&](std::size_t i) { return law.potential(samples.c[i]).first * curve[i].r * curve[i].g; }),
+        assemble_variation(
+            space, 1, [&](std::size_t i) { return conductance_variation(curve[i], law.edge_width * samples.c1[i]); })};
+    result.from_curve += assemble_variation(
+        space, 0, [&](std::size_t i) { return area_variation(curve[i], law.potential(samples.c[i]).value); });
+    return result;
 }
 
 // int (r/g) p'(c) phi_i' phi_j' dxi: diffusion of second order
@@ -96,12 +116,12 @@ Eigen::VectorXd concentration_from_moments(const MembraneSpace& space, const std
 }
 
 Eigen::VectorXd diffusion_rate(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& c,
-                               const TransportLaw& law) {
+                               const TransportLaw& law, const EnergyDerivatives& energy) {
     if (law.mobility == 0) return Eigen::VectorXd::Zero(space.axial_count());
     if (law.edge_width == 0) return -law.mobility * (diffusion_matrix(space, samples, law) * c);
     const Eigen::MatrixXd stiffness = surface_stiffness_matrix(space, samples.curve);
     const LuFactors mass(surface_mass_matrix(space, samples.curve), "concentration mass");
-    return -law.mobility * (stiffness * chemical_potential(space, samples, c, law, mass, stiffness));
+    return -law.mobility * (stiffness * chemical_potential(space, samples, c, law, energy, mass, stiffness));
 }
 
 Eigen::VectorXd advection_rate(const MembraneSpace& space, const MembraneSamples& samples,
@@ -130,6 +150,7 @@ Eigen::MatrixXd advection_from_mesh_velocity(const MembraneSpace& space, const M
 
 TransportDerivatives transport_derivatives(const MembraneSpace& space, const MembraneSamples& samples,
                                            const Eigen::VectorXd& c, const TransportLaw& law,
+                                           const EnergyDerivatives& energy,
                                            const std::vector<double>& relative_velocity) {
     TransportDerivatives result;
     const auto& curve = samples.curve;
@@ -155,17 +176,13 @@ TransportDerivatives transport_derivatives(const MembraneSpace& space, const Mem
         return result;
     }
     const Eigen::MatrixXd stiffness = surface_stiffness_matrix(space, curve);
-    const Eigen::VectorXd mu = chemical_potential(space, samples, c, law, mass, stiffness);
-    const Eigen::MatrixXd weak_from_c = law.edge_width * stiffness + assemble(space, 0, 0, [&](std::size_t i) {
-                                            return law.potential(samples.c[i]).first * curve[i].r * curve[i].g;
-                                        });
-    result.rate_from_c -= law.mobility * stiffness * mass.solve(weak_from_c);
-    Eigen::MatrixXd weak_from_curve = assemble_variation(
-        space, 1, [&](std::size_t i) { return conductance_variation(curve[i], law.edge_width * samples.c1[i]); });
-    weak_from_curve += assemble_variation(space, 0, [&](std::size_t i) {
-        const double value = space.axial_rows[i].evaluate(mu, 0);
-        return area_variation(curve[i], law.potential(samples.c[i]).value - value);
-    });
+    const Eigen::VectorXd mu = chemical_potential(space, samples, c, law, energy, mass, stiffness);
+    const WeakVariation potential = law.energetic ? WeakVariation{energy.second_c, energy.mixed.transpose()}
+                                                  : law_potential_variation(space, samples, law, stiffness);
+    result.rate_from_c -= law.mobility * stiffness * mass.solve(potential.from_c);
+    const Eigen::MatrixXd weak_from_curve = potential.from_curve - assemble_variation(space, 0, [&](std::size_t i) {
+                                                return area_variation(curve[i], space.axial_rows[i].evaluate(mu, 0));
+                                            });
     result.rate_from_curve -= law.mobility * (stiffness * mass.solve(weak_from_curve));
     result.rate_from_curve -= law.mobility * assemble_variation(space, 1, [&](std::size_t i) {
                                   return conductance_variation(curve[i], space.axial_rows[i].evaluate(mu, 1));

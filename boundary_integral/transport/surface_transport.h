@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "boundary_integral/flow/dense_solver.h"
+#include "boundary_integral/membrane/energy.h"
 #include "boundary_integral/membrane/membrane_space.h"
 #include "shared/model/transport_law.h"
 
@@ -22,9 +23,10 @@ Eigen::MatrixXd surface_stiffness_matrix(const MembraneSpace& space, const std::
 Eigen::VectorXd concentration_from_moments(const MembraneSpace& space, const std::vector<CurvePoint>& curve,
                                            const Eigen::VectorXd& moments);
 
-// d(m)/dt by diffusion alone.
+// d(m)/dt by diffusion alone. Under energetic coupling E's gradient by c is what drives it, and its derivatives below
+// need those of second order.
 Eigen::VectorXd diffusion_rate(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& c,
-                               const TransportLaw& law);
+                               const TransportLaw& law, const EnergyDerivatives& energy);
 
 // d(m)/dt by advection with `relative_velocity` (values of v at the Gauss points, nm/us).
 Eigen::VectorXd advection_rate(const MembraneSpace& space, const MembraneSamples& samples,
@@ -43,6 +45,7 @@ struct TransportDerivatives {
 };
 TransportDerivatives transport_derivatives(const MembraneSpace& space, const MembraneSamples& samples,
                                            const Eigen::VectorXd& c, const TransportLaw& law,
+                                           const EnergyDerivatives& energy,
                                            const std::vector<double>& relative_velocity);
 
 }  // namespace endoflow::boundary_integral

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "shared/model/bending_model.h"
+#include "shared/model/exchange.h"
 #include "shared/model/initial_condition.h"
 #include "shared/model/loads.h"
+#include "shared/model/membrane_energy.h"
 #include "shared/model/time_scale.h"
 #include "shared/support/error.h"
 
@@ -98,6 +101,47 @@ void check_molecules(const Parameters& p, const Require& require) {
     }
 }
 
+/// ∫ c dA of the initial coat on a flat membrane, nm².
+double initial_coat(const MoleculeParameters& m) {
+    const double edge = std::numbers::sqrt2 * m.interface_width;
+    return std::numbers::pi * (m.patch_radius * m.patch_radius + std::pow(std::numbers::pi * edge, 2) / 12);
+}
+
+/// Detachment this many times e faster than without sensing is out of any rate's range.
+constexpr double largest_exponent = 100;
+
+/// Keys of a law that is not the case's, rates that are missing, pools that do not hold the coat there is.
+void check_exchange(const Parameters& p, const Require& require) {
+    const MoleculeParameters& m = p.molecules;
+    const bool reservoir = m.exchange == Exchange::reservoir, edge = m.exchange == Exchange::edge;
+    const auto belongs = [&](bool holds, const char* key, double value, const char* to) {
+        require(holds || value == 0, fmt::format("molecules.{} = {:g} needs molecules.exchange = {}", key, value, to));
+    };
+    belongs(reservoir, "on_rate", m.on_rate, "\"reservoir\"");
+    belongs(reservoir, "off_rate", m.off_rate, "\"reservoir\"");
+    belongs(reservoir, "curvature_sensing", m.curvature_sensing, "\"reservoir\"");
+    belongs(reservoir, "molecule_area", m.molecule_area, "\"reservoir\"");
+    belongs(edge, "edge_speed", m.edge_speed, "\"edge\"");
+    belongs(reservoir || edge, "pool_area", m.pool_area, "\"reservoir\" or \"edge\"");
+    if (m.exchange == Exchange::none) return;
+    require(p.domain.kind == DomainKind::box, "molecules.exchange needs domain.kind = \"box\"");
+    require(!edge || m.edge_speed > 0, "molecules.exchange = \"edge\" needs molecules.edge_speed > 0");
+    require(!reservoir || m.on_rate + m.off_rate > 0,
+            "molecules.exchange = \"reservoir\" needs molecules.on_rate or molecules.off_rate > 0");
+    const bool sensing = m.curvature_sensing > 0;
+    require(sensing == (m.molecule_area > 0) && (!sensing || m.off_rate > 0),
+            "molecules.curvature_sensing and molecules.molecule_area need each other, and molecules.off_rate > 0");
+    require(m.pool_area == 0 || m.pool_area > initial_coat(m),
+            fmt::format("molecules.pool_area = {:g} nm^2 must exceed the {:.5g} nm^2 of the initial coat", m.pool_area,
+                        initial_coat(m)));
+    const double exponent =
+        ExchangeLaw(m).detachment_exponent(bending_energy(p).density(0, 1, 0).partial[local::concentration]);
+    require(std::abs(exponent) <= largest_exponent,
+            fmt::format("molecules.molecule_area = {:g} nm^2: a molecule of the flat coat would free {:.4g} k_B T by "
+                        "leaving, more than {:g}; lower it, or curvature_sensing",
+                        m.molecule_area, exponent, largest_exponent));
+}
+
 void check_times(const Parameters& p, const Require& require) {
     require(first_step(p) <= longest_step(p),
             fmt::format("time.initial_step = {:.5g} µs must not exceed time.max_step = {:.5g} µs", first_step(p),
@@ -120,6 +164,7 @@ void check_case(const Parameters& p, const std::string& where) {
     if (p.domain.kind == DomainKind::box) check_box(p, require);
     check_loads(p, require);
     check_molecules(p, require);
+    check_exchange(p, require);
     check_times(p, require);
 }
 

@@ -1,5 +1,6 @@
 #include "shared/model/loads.h"
 
+#include "shared/model/exchange.h"
 #include "shared/support/error.h"
 
 namespace endoflow {
@@ -9,6 +10,7 @@ void require_no_loads(const Parameters& parameters, const std::string& engine) {
         throw InputError("membrane.rim_tension, membrane.pole_force and fluid.pressure_difference must be 0: the " +
                          engine + " engine does not have them");
     require_no_coupling(parameters, engine);
+    require_no_exchange(parameters, engine);
 }
 
 void require_no_coupling(const Parameters& parameters, const std::string& engine) {

@@ -37,7 +37,8 @@ struct Loads {
     }
 };
 
-/// Throws InputError where an engine has neither the loads nor the coupling of molecules that a case asks for.
+/// Throws InputError where an engine has neither the loads nor the coupling nor the exchange of molecules that a case
+/// asks for.
 void require_no_loads(const Parameters& parameters, const std::string& engine);
 
 /// The same for an engine that has the loads.

@@ -22,12 +22,24 @@ double natural_time(const Parameters& p) {
     return (p.fluid.viscosity_extracellular + p.fluid.viscosity_intracellular) * std::pow(R, 3) / stiffness;
 }
 
+double exchange_time(const Parameters& p) {
+    switch (p.molecules.exchange) {
+        case Exchange::none:
+            return 0;
+        case Exchange::reservoir:
+            return 1 / (p.molecules.on_rate + p.molecules.off_rate);
+        case Exchange::edge:
+            return p.domain.radius / p.molecules.edge_speed;
+    }
+    return 0;
+}
+
 double first_step(const Parameters& p) {
     return p.time.initial_step > 0 ? p.time.initial_step : first_part * natural_time(p);
 }
 
 double longest_step(const Parameters& p) {
-    return p.time.max_step > 0 ? p.time.max_step : longest_part * natural_time(p);
+    return p.time.max_step > 0 ? p.time.max_step : longest_part * std::max(natural_time(p), exchange_time(p));
 }
 
 }  // namespace endoflow

@@ -9,10 +9,14 @@ namespace endoflow {
 /// membrane's and M fluid.normal_mobility. 9.4 µs in the standard case.
 [[nodiscard]] double natural_time(const Parameters& parameters);
 
+/// The time [µs] in which molecules that come and go change the coat: 1/(k_on + k_off), or R/v at its edge. 0 without.
+[[nodiscard]] double exchange_time(const Parameters& parameters);
+
 /// time.initial_step, or where that is 0 about 10⁻⁶ of natural_time [µs].
 [[nodiscard]] double first_step(const Parameters& parameters);
 
-/// time.max_step, or where that is 0 about 0.02 of natural_time [µs].
+/// time.max_step, or where that is 0 about 0.02 of the longer one of natural_time and exchange_time [µs]: a membrane
+/// that follows a slowly growing coat is at rest in between, and steps are as long as their error allows.
 [[nodiscard]] double longest_step(const Parameters& parameters);
 
 }  // namespace endoflow

@@ -20,7 +20,7 @@ const std::vector<HistoryColumn>& common_history_columns() {
         {"bud_height_nm", "highest point above the rim", &R::bud_height_nm},
         {"membrane_area_nm2", "area inside the domain; grows as membrane flows in", &R::membrane_area_nm2},
         {"bending_energy_pN_nm", "(S), or (D) of the diffuse membrane", &R::bending_energy_pN_nm},
-        {"molecule_mass_nm2", "∫ c dA, conserved", &R::molecule_mass_nm2},
+        {"molecule_mass_nm2", "∫ c dA, conserved without exchange", &R::molecule_mass_nm2},
         {"area_strain_max", "largest local change of area of the material", &R::area_strain_max},
         {"volume_extracellular_nm3", "volume gained against the flat plane", &R::volume_extracellular_nm3},
         {"wall_s", "wall time since the start", &R::wall_s},

@@ -36,6 +36,10 @@ struct EnumNames<Coupling> {
     static constexpr std::array names{"none", "energetic"};
 };
 template <>
+struct EnumNames<Exchange> {
+    static constexpr std::array names{"none", "reservoir", "edge"};
+};
+template <>
 struct EnumNames<PhaseFieldScheme> {
     static constexpr std::array names{"paper", "production"};
 };
@@ -198,6 +202,23 @@ std::vector<ParameterRow> molecule_rows() {
         row("molecules", "line_energy", &P::molecules, &S::line_energy, "pN", at_least(0, 1e6), "σ̂",
             "with coupling = energetic: the coat's edge costs σ̂ √2/6 per length; the molecules' mobility is then "
             "molecules.mobility per pN"),
+        row("molecules", "exchange", &P::molecules, &S::exchange, "", any(), "",
+            "how molecules come and go: none; reservoir, everywhere from the fluid; edge, assembly at the coat's edge"),
+        row("molecules", "on_rate", &P::molecules, &S::on_rate, "1/µs", at_least(0, 1e6), "k_on",
+            "reservoir: rate at which bare membrane is covered"),
+        row("molecules", "off_rate", &P::molecules, &S::off_rate, "1/µs", at_least(0, 1e6), "k_off",
+            "reservoir: rate at which molecules leave"),
+        row("molecules", "curvature_sensing", &P::molecules, &S::curvature_sensing, "", at_least(0, 1), "s",
+            "reservoir: part of ∂e/∂c, the bending energy a molecule frees by leaving, that makes it leave faster"),
+        row("molecules", "thermal_energy", &P::molecules, &S::thermal_energy, "pN nm", {0.1, 1e3}, "k_B T",
+            "what curvature sensing compares energies with; 4.11 pN nm at 25 °C"),
+        row("molecules", "molecule_area", &P::molecules, &S::molecule_area, "nm^2", at_least(0, 1e4), "a₀",
+            "membrane's area per molecule, for curvature sensing"),
+        row("molecules", "edge_speed", &P::molecules, &S::edge_speed, "nm/µs", at_least(0, 1e3), "v",
+            "edge: speed at which a flat coat's radius grows; 1e-3 nm/µs = 1 µm/s"),
+        row("molecules", "pool_area", &P::molecules, &S::pool_area, "nm^2", at_least(0, 1e12), "m_pool",
+            "coat that all molecules together can make, on the membrane and off it; attachment slows down as "
+            "1 - m/m_pool; 0 = unlimited"),
     };
 }
 
@@ -313,7 +334,9 @@ std::vector<ParameterRow> time_rows() {
         free_on_restart(row("time", "initial_step", &P::time, &S::initial_step, "µs", at_least(0, 1e3), "",
                             "first time step; 0 = 1.0653e-6 (ν₁ + ν₂) R³/β, 1e-5 µs in the standard case")),
         free_on_restart(row("time", "max_step", &P::time, &S::max_step, "µs", at_least(0, 1e6), "",
-                            "largest time step; 0 = 0.021307 (ν₁ + ν₂) R³/β, 0.2 µs in the standard case")),
+                            "largest time step; 0 = 0.021307 (ν₁ + ν₂) R³/β, 0.2 µs in the standard case, or of the "
+                            "molecules' exchange "
+                            "time where that is longer")),
     };
 }
 

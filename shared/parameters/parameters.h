@@ -13,6 +13,7 @@ enum class CurvatureConvention { as_printed, consistent };
 enum class ConstitutiveLaw { linear, coarse_grained, lumped };
 enum class Transport { cahn_hilliard, fickian, advection };
 enum class Coupling { none, energetic };
+enum class Exchange { none, reservoir, edge };
 enum class PhaseFieldScheme { paper, production };
 enum class ViscosityMean { arithmetic, harmonic };
 
@@ -63,6 +64,14 @@ struct MoleculeParameters {
     double normal_diffusivity = 1600;
     Coupling coupling = Coupling::none;
     double line_energy = 0;
+    Exchange exchange = Exchange::none;
+    double on_rate = 0;
+    double off_rate = 0;
+    double curvature_sensing = 0;
+    double thermal_energy = 4.11;
+    double molecule_area = 0;
+    double edge_speed = 0;
+    double pool_area = 0;
 };
 
 /// What scheme `paper` alone reads.

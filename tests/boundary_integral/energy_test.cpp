@@ -105,6 +105,9 @@ TEST_CASE("the force is minus the variation of the energy", "[energy]") {
         const Eigen::VectorXd mixed_difference =
             central_difference([&](double h) -> Eigen::VectorXd { return with_c(h).gradient; }, step);
         CHECK((exact.mixed * c_direction - mixed_difference).norm() < 1e-7 * mixed_difference.norm());
+        const Eigen::VectorXd second_difference =
+            central_difference([&](double h) -> Eigen::VectorXd { return with_c(h).gradient_c; }, step);
+        CHECK((exact.second_c * c_direction - second_difference).norm() < 1e-7 * second_difference.norm());
     }
 }
 

@@ -1,0 +1,91 @@
+// Molecules that come onto the membrane and leave it.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "shared/model/exchange.h"
+#include "shared/model/loads.h"
+#include "shared/support/error.h"
+
+using namespace endoflow;
+
+namespace {
+
+MoleculeParameters reservoir() {
+    MoleculeParameters m;
+    m.exchange = Exchange::reservoir;
+    m.on_rate = 0.3;
+    m.off_rate = 0.2;
+    return m;
+}
+
+MoleculeParameters edge() {
+    MoleculeParameters m;
+    m.exchange = Exchange::edge;
+    m.edge_speed = 0.01;
+    return m;
+}
+
+}  // namespace
+
+TEST_CASE("the reservoir's equilibrium is Langmuir's, and bending's energy shifts it by Boltzmann's factor") {
+    MoleculeParameters m = reservoir();
+    CHECK(ExchangeLaw(m).rate(0.0, 0.0, 0.0) == Approx(0.3));
+    CHECK(ExchangeLaw(m).rate(1.0, 0.0, 0.0) == Approx(-0.2));
+    CHECK(std::abs(ExchangeLaw(m).rate(0.6, 17.0, 1e5)) < 1e-16);  // k_on/(k_on + k_off), whatever does not count
+    m.curvature_sensing = 1;
+    m.molecule_area = 2;
+    const double exponent = 2 * 1.7 / 4.11, equilibrium = 0.3 / (0.3 + 0.2 * std::exp(exponent));
+    CHECK(ExchangeLaw(m).detachment_exponent(1.7) == Approx(exponent));
+    CHECK(std::abs(ExchangeLaw(m).rate(equilibrium, 1.7, 0.0)) < 1e-16);
+}
+
+TEST_CASE("edge growth is the speed times the slope of the equilibrium profile, and makes nothing from nothing") {
+    const MoleculeParameters m = edge();
+    for (const double x : {-3.0, -0.4, 0.0, 1.7}) {
+        const double t = std::tanh(x / (std::sqrt(2.0) * m.interface_width)), c = 0.5 * (1 - t);
+        const double slope = -0.5 * (1 - t * t) / (std::sqrt(2.0) * m.interface_width);
+        CHECK(ExchangeLaw(m).rate(c, 0.0, 0.0) == Approx(-0.01 * slope).epsilon(1e-12));
+    }
+    CHECK(ExchangeLaw(m).rate(0.0, 0.0, 0.0) == 0);
+    CHECK(ExchangeLaw(m).rate(-1e-3, 0.0, 0.0) == 0);
+    CHECK(ExchangeLaw(m).rate(1.01, 0.0, 0.0) < 0);
+}
+
+TEST_CASE("attachment slows down as the pool is used up, detachment does not") {
+    MoleculeParameters m = reservoir();
+    m.pool_area = 4000;
+    CHECK(ExchangeLaw(m).rate(0.0, 0.0, 1000.0) == Approx(0.75 * 0.3));
+    CHECK(ExchangeLaw(m).rate(1.0, 0.0, 4000.0) == Approx(-0.2));
+    MoleculeParameters n = edge();
+    n.pool_area = 4000;
+    CHECK(ExchangeLaw(n).rate(0.5, 0.0, 1000.0) == Approx(0.75 * ExchangeLaw(edge()).rate(0.5, 0.0, 0.0)));
+}
+
+TEST_CASE("an exchange rate's derivatives are those of its value") {
+    MoleculeParameters m = GENERATE(0, 1) == 0 ? reservoir() : edge();
+    m.pool_area = 5000;
+    if (m.exchange == Exchange::reservoir) m.curvature_sensing = 0.7, m.molecule_area = 3;
+    const ExchangeLaw law(m);
+    using D = Dual<3>;
+    const std::array<double, 3> at{0.37, 1.2, 2100};
+    const D exact = law.rate(D::variable(at[0], 0), D::variable(at[1], 1), D::variable(at[2], 2));
+    CHECK(exact.value == Approx(law.rate(at[0], at[1], at[2])).epsilon(1e-15));
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::array<double, 3> up = at, down = at;
+        const double step = 1e-5 * at[i];  // central differences: relative errors of 1e-10
+        up[i] += step, down[i] -= step;
+        const double slope = (law.rate(up[0], up[1], up[2]) - law.rate(down[0], down[1], down[2])) / (2 * step);
+        CHECK(exact.partial[i] == Approx(slope).epsilon(1e-8).margin(1e-14));
+    }
+}
+
+TEST_CASE("an engine without exchange refuses it by its name") {
+    Parameters parameters;
+    CHECK_NOTHROW(require_no_exchange(parameters, "statics"));
+    CHECK(ExchangeLaw(parameters.molecules).none());
+    CHECK(ExchangeLaw(parameters.molecules).rate(0.5, 1.0, 1.0) == 0);
+    parameters.molecules = edge();
+    CHECK_THROWS_WITH(require_no_exchange(parameters, "statics"), Catch::Contains("statics engine"));
+    CHECK_THROWS_AS(require_no_loads(parameters, "phase-field"), InputError);
+}
