@@ -51,6 +51,7 @@ void StiffIntegrator::set_up(const StartingPoint& start, const StepLimits& limit
     require_success(CVodeSetJacEvalFrequency(cvode, 1), "CVodeSetJacEvalFrequency");
     require_success(CVodeSetMaxErrTestFails(cvode, most_failures), "CVodeSetMaxErrTestFails");
     require_success(CVodeSetMaxConvFails(cvode, most_failures), "CVodeSetMaxConvFails");
+    require_success(CVodeSetNonlinConvCoef(cvode, limits.iteration), "CVodeSetNonlinConvCoef");
     require_success(CVodeSetMinStep(cvode, limits.smallest), "CVodeSetMinStep");
     require_success(CVodeSetMaxStep(cvode, limits.largest), "CVodeSetMaxStep");
     require_success(CVodeSetInitStep(cvode, std::min(start.step, limits.largest)), "CVodeSetInitStep");

@@ -13,8 +13,9 @@
 namespace endoflow::boundary_integral {
 
 struct StepLimits {
-    double largest = 0.0;   ///< µs
-    double smallest = 0.0;  ///< µs; a smaller step is a failure
+    double largest = 0.0;    ///< µs
+    double smallest = 0.0;   ///< µs; a smaller step is a failure
+    double iteration = 0.1;  ///< error that the iteration may leave, in units of the step's; 0.1 is CVODE's own
 };
 
 /// All that an integration which starts anew depends on: one that starts from the same point makes the same steps.
