@@ -1,7 +1,7 @@
 """`endoflow reproduce ITEM [--quick|--full] [-o DIR] [--jobs N]`: the paper's figures and tables, ours beside them.
 
-ITEM is table2, fig3, fig4, fig5, fig6, fig7, figA2 or all. The runs lie in DIR/runs and are shared by the items; each
-item writes DIR/ITEM with report.html, plots (PNG, SVG) and ITEM.csv, and DIR/index.html lists them. Exit codes: 0 done,
+ITEM is table2, fig3, fig4, fig5, fig6, fig7, figA2 or all; or of other papers hassinger2017, derenyi2002, which are branches
+of stationary shapes and need seconds. The runs lie in DIR/runs and are shared by the items; each item writes DIR/ITEM with report.html, plots (PNG, SVG) and ITEM.csv, and DIR/index.html lists them. Exit codes: 0 done,
 also when an engine refused a run: its item's page says so; 2 bad command line or parameter; 3 nothing ran; 4 input or output; 130 or
 143 interrupted (run it again to continue).
 """
@@ -19,11 +19,15 @@ from .options import study_parser
 
 NAMES = ("table2", "fig3", "fig4", "fig5", "fig6", "fig7", "figA2")
 
+#: Items of other papers, which `all` leaves out.
+OTHER_NAMES = ("hassinger2017", "derenyi2002")
+
 
 def parsed(arguments):
     """The command line as a namespace."""
     parser = study_parser("reproduce", "Reproduce figures and tables of the paper.", "out/paper")
-    parser.add_argument("items", metavar="ITEM", nargs="+", choices=(*NAMES, "all"), help=", ".join((*NAMES, "all")))
+    names = (*NAMES, "all", *OTHER_NAMES)
+    parser.add_argument("items", metavar="ITEM", nargs="+", choices=names, help=", ".join(names))
     extent = parser.add_mutually_exclusive_group()
     extent.add_argument("--quick", action="store_true", help="few and short phase-field runs: all in half an hour")
     extent.add_argument("--full", action="store_true", help="the paper's layer and times (the default); many hours")
@@ -58,11 +62,11 @@ def study_members(options, output):
 
     A member's name is None where its engine was not asked for.
     """
-    from comparisons.paper import ITEMS
+    from comparisons.paper import ITEMS, OTHERS
 
     asked, ends, first = {}, {}, {}
     for item in chosen(options):
-        for wanted in ITEMS[item].wanted(options.quick):
+        for wanted in {**ITEMS, **OTHERS}[item].wanted(options.quick):
             if options.engine not in (wanted.engine, "both"):
                 asked[item, wanted.name, wanted.engine] = None
                 continue
@@ -102,8 +106,9 @@ def checked_member(name, wanted, directory, end):
 
 
 def chosen(options):
-    """The items asked for, in the paper's order."""
-    return NAMES if "all" in options.items else [name for name in NAMES if name in options.items]
+    """The items asked for, in the paper's order, then those of other papers."""
+    own = NAMES if "all" in options.items else [name for name in NAMES if name in options.items]
+    return [*own, *(name for name in OTHER_NAMES if name in options.items)]
 
 
 def loaded(members, outcomes):
@@ -151,17 +156,18 @@ def not_run(found):
 def write_item(item, runs, options, output):
     """Write an item's directory; returns its paper.item.Result."""
     from comparisons.drawing.plots import save
-    from comparisons.paper import ITEMS, page
+    from comparisons.paper import ITEMS, OTHERS, page
     from comparisons.studies.sweep_table import write_table
 
-    module = ITEMS[item]
+    module = {**ITEMS, **OTHERS}[item]
+    source = getattr(module, "SOURCE", page.SOURCE)
     directory = output / item
     directory.mkdir(parents=True, exist_ok=True)
     result = module.result(runs, options.quick)
     write_table(directory / f"{item}.csv", result.rows)
     for name, (_, figure) in result.figures.items():
         save(figure, directory, name)
-    text = page.item_html(item, module.TITLE, result, runs, options.quick, directory)
+    text = page.item_html(item, module.TITLE, source, result, runs, options.quick, directory)
     write_text(directory / "report.html", text)
     return result
 

@@ -12,7 +12,7 @@ COMMAND = "endoflow reproduce"
 SOURCE = "J. Lowengrub, J. Allard, S. Aland, J. Comput. Phys. (2016)"
 
 
-def item_html(item, title, result, runs, quick, directory):
+def item_html(item, title, source, result, runs, quick, directory):
     """The page's text; result: item.Result, its figures saved in directory (Path)."""
     sections = [
         ("The paper beside this", printed_table(result.printed)),
@@ -21,7 +21,7 @@ def item_html(item, title, result, runs, quick, directory):
         ("Numbers", numbers_table(result.rows) + f'<p class="note">{escaped(item)}.csv holds them with 12 digits.</p>'),
         ("Runs", runs_table(runs)),
     ]
-    subtitle = f"{SOURCE} · {'quick' if quick else 'full'}"
+    subtitle = f"{source} · {'quick' if quick else 'full'}"
     return page(f"{COMMAND} {item}", title, subtitle, alarms(runs), [], sections, directory)
 
 
@@ -91,13 +91,14 @@ def summary_lines(item, result, directory):
 
 def index_html(output):
     """A page that links to every item that lies in output (Path)."""
-    from . import ITEMS
+    from . import ITEMS, OTHERS
 
-    made = [name for name in ITEMS if (output / name / "report.html").exists()]
+    modules = {**ITEMS, **OTHERS}
+    made = [name for name in modules if (output / name / "report.html").exists()]
     rows = []
     for name in made:
         picture = next(iter(sorted((output / name).glob("*.png"), key=lambda p: (len(p.name), p.name))), None)
         image = f'<img src="{escaped(picture.relative_to(output))}" alt="" width="320">' if picture else ""
-        link = f'<a href="{escaped(name)}/report.html">{escaped(ITEMS[name].TITLE)}</a>'
+        link = f'<a href="{escaped(name)}/report.html">{escaped(modules[name].TITLE)}</a>'
         rows.append(("", [link, image, f'<a href="{escaped(name)}/{escaped(name)}.csv">CSV</a>']))
     return page(COMMAND, "The paper, reproduced", SOURCE, [], [], [("Items", report.table(["", "", ""], rows))], output)
