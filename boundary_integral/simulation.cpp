@@ -9,6 +9,7 @@
 #include "boundary_integral/driver/history_recorder.h"
 #include "boundary_integral/driver/run_loop.h"
 #include "boundary_integral/support/parallel.h"
+#include "shared/geometry/initial_curve.h"
 #include "shared/support/error.h"
 
 namespace endoflow::boundary_integral {
@@ -19,13 +20,7 @@ void require_offered(const Parameters& parameters) {
     if (parameters.fluid.inertia) {
         throw InputError("fluid.inertia: the boundary-integral engine solves the Stokes equations; set it to false");
     }
-    const DomainParameters& domain = parameters.domain;
-    if (domain.kind == DomainKind::free_space && parameters.fluid.dynamics == Dynamics::flow &&
-        parameters.membrane.inextensible && domain.spheroid_polar_axis == domain.spheroid_equatorial_axis) {
-        throw InputError(
-            "domain.spheroid_polar_axis: an inextensible sphere keeps its shape; make it differ from "
-            "domain.spheroid_equatorial_axis");
-    }
+    require_deformable(parameters);
 }
 
 }  // namespace

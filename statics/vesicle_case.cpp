@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "shared/geometry/spheroid.h"
 #include "shared/model/bending_model.h"
 #include "shared/model/initial_condition.h"
 #include "shared/support/error.h"
-#include "statics/spheroid.h"
 
 namespace endoflow::statics {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "shared/geometry/spheroid.h"
 #include "shared/support/error.h"
-#include "statics/spheroid.h"
 
 namespace endoflow::statics {
 

@@ -3,9 +3,9 @@
 #include <numbers>
 #include <utility>
 
-#include "boundary_integral/evolution/initial_curve.h"
 #include "boundary_integral/flow/free_space_flow.h"
 #include "boundary_integral/flow/normal_motion.h"
+#include "shared/geometry/initial_curve.h"
 
 namespace endoflow::boundary_integral {
 

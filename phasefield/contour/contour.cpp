@@ -52,17 +52,22 @@ std::vector<ContourSegment> contour_segments(const ContourFields& fields) {
 Contour extract_contour(const ContourFields& fields, const Parameters& p) {
     const auto segments = contour_segments(fields);
     const double R = p.domain.radius, tolerance = 1e-7 * p.phase_field.cell_size;
+    const bool closed = p.domain.kind == DomainKind::free_space;
     auto chains = join_segments(segments, tolerance);
     const auto on_axis = [&](const ContourPoint& point) { return std::abs(point.r) < tolerance; };
     const auto on_rim = [&](const ContourPoint& point) { return std::abs(point.r - R) < tolerance; };
     for (auto& chain : chains) {
-        if (on_rim(chain.front())) std::reverse(chain.begin(), chain.end());
-        if (!on_axis(chain.front()) || !on_rim(chain.back())) continue;
+        const bool backwards = closed ? chain.front().z < chain.back().z : on_rim(chain.front());
+        if (backwards) std::reverse(chain.begin(), chain.end());
+        if (!on_axis(chain.front()) || !(closed ? on_axis(chain.back()) : on_rim(chain.back()))) continue;
         chain.front().r = 0;
+        if (closed) chain.back().r = 0;
         const double spacing = 0.4 * p.phase_field.cell_size / subdivisions;
         return {to_curve(thin_out(chain, spacing)), static_cast<unsigned int>(chains.size())};
     }
-    throw SolverError("membrane-lost", "the level set φ = 0 does not connect the rim with the axis",
+    throw SolverError("membrane-lost",
+                      closed ? "the level set φ = 0 does not lead from pole to pole"
+                             : "the level set φ = 0 does not connect the rim with the axis",
                       "use a smaller phase_field.cell_size or time.max_step");
 }
 

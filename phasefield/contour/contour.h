@@ -7,8 +7,9 @@
 
 namespace endoflow::phasefield {
 
-/// The level set as a curve from the axis to the rim. Points lie on the discrete zero set to round-off, κ comes from
-/// the level-set function's derivatives, and lambda is the sharp tension.
+/// The level set as a curve from the axis to the rim, or of a vesicle from its upper pole to the lower. Points lie on
+/// the discrete zero set to round-off, κ comes from the level-set function's derivatives, and lambda is the sharp
+/// tension.
 struct Contour {
     MembraneCurve curve;
     unsigned int components;  // 1, or more when the membrane has changed its topology
@@ -18,7 +19,7 @@ struct Contour {
 std::vector<ContourSegment> contour_segments(const ContourFields& fields);
 
 /// Collective; the result is the same on all processes. Throws SolverError("membrane-lost", …) when φ = 0 does not
-/// connect the rim with the axis.
+/// connect the rim, or the lower pole, with the axis.
 Contour extract_contour(const ContourFields& fields, const Parameters& parameters);
 
 /// The positions alone.

@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "phasefield/fem/flow_domain.h"
+
 namespace endoflow::phasefield {
 
 namespace {
@@ -14,25 +16,27 @@ namespace {
 /// Cells of the coarse mesh in the directions r and z.
 std::vector<unsigned int> coarse_cells(const Parameters& p) {
     if (!(p.phase_field.cell_size > 0)) throw std::invalid_argument("coarse mesh: the cell size has not been chosen");
-    const double size = p.phase_field.cell_size * std::pow(2.0, p.phase_field.far_refinements);
+    const FlowDomain domain = flow_domain(p);
+    const double size = p.phase_field.cell_size * std::exp2(layer_level(p));
     const auto cells = [size](double length, unsigned int multiple) {
         return multiple * std::max(1u, static_cast<unsigned int>(std::lround(length / (size * multiple))));
     };
-    return {cells(p.domain.radius, 1), cells(p.domain.height, 2)};
+    return {cells(domain.radius, 1), cells(domain.top - domain.bottom, 2)};
 }
 
 }  // namespace
 
 double layer_cell_size(const Parameters& p) {
     const auto cells = coarse_cells(p);
-    return std::max(p.domain.radius / cells[0], p.domain.height / cells[1]) /
-           std::pow(2.0, p.phase_field.far_refinements);
+    const FlowDomain domain = flow_domain(p);
+    return std::max(domain.radius / cells[0], (domain.top - domain.bottom) / cells[1]) / std::exp2(layer_level(p));
 }
 
 std::unique_ptr<Mesh> coarse_mesh(const Parameters& p, MPI_Comm communicator) {
     auto mesh = std::make_unique<Mesh>(communicator, dealii::Triangulation<2>::limit_level_difference_at_vertices);
-    dealii::GridGenerator::subdivided_hyper_rectangle(*mesh, coarse_cells(p), dealii::Point<2>(0, 0),
-                                                      dealii::Point<2>(p.domain.radius, p.domain.height), true);
+    const FlowDomain domain = flow_domain(p);
+    dealii::GridGenerator::subdivided_hyper_rectangle(*mesh, coarse_cells(p), dealii::Point<2>(0, domain.bottom),
+                                                      dealii::Point<2>(domain.radius, domain.top), true);
     return mesh;
 }
 

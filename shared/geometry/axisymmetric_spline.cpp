@@ -2,18 +2,32 @@
 
 namespace endoflow {
 
-AxisymmetricSpline::AxisymmetricSpline(const std::vector<double>& t, const std::vector<double>& values, Parity parity)
-    : spline_(gsl_spline_alloc(gsl_interp_cspline, 2 * t.size() - 1), &gsl_spline_free) {
-    const std::size_t n = t.size();
+namespace {
+
+constexpr std::size_t mirrored_points(std::size_t n, FarEnd end) {
+    return end == FarEnd::axis ? 3 * n - 2 : 2 * n - 1;
+}
+
+}  // namespace
+
+AxisymmetricSpline::AxisymmetricSpline(const std::vector<double>& t, const std::vector<double>& values, Parity parity,
+                                       FarEnd end)
+    : spline_(gsl_spline_alloc(gsl_interp_cspline, mirrored_points(t.size(), end)), &gsl_spline_free) {
+    const std::size_t n = t.size(), size = mirrored_points(n, end);
     const double sign = parity == Parity::even ? 1 : -1;
-    std::vector<double> mirrored_t(2 * n - 1), mirrored_values(2 * n - 1);
+    std::vector<double> mirrored_t(size), mirrored_values(size);
     for (std::size_t i = 0; i < n; ++i) {
         mirrored_t[n - 1 - i] = -t[i];
         mirrored_values[n - 1 - i] = sign * values[i];
         mirrored_t[n - 1 + i] = t[i];
         mirrored_values[n - 1 + i] = values[i];
     }
-    gsl_spline_init(spline_.get(), mirrored_t.data(), mirrored_values.data(), 2 * n - 1);
+    for (std::size_t i = 2 * n - 1; i < size; ++i) {  // of the point as far before the end
+        const std::size_t before = 3 * n - 3 - i;
+        mirrored_t[i] = 2 * t.back() - t[before];
+        mirrored_values[i] = sign * values[before];
+    }
+    gsl_spline_init(spline_.get(), mirrored_t.data(), mirrored_values.data(), size);
 }
 
 }  // namespace endoflow

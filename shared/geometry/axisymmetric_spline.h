@@ -9,10 +9,15 @@ namespace endoflow {
 
 enum class Parity { even, odd };
 
-/// Cubic spline of a function known at parameters 0 = t0 < t1 < …, continued to t < 0 as an even or odd function.
+/// What a curve ends at, having started on the axis.
+enum class FarEnd { free, axis };
+
+/// Cubic spline of a function known at parameters 0 = t0 < t1 < …, continued to t < 0 as an even or odd function, and
+/// so beyond the last parameter of a curve that ends on the axis.
 class AxisymmetricSpline {
   public:
-    AxisymmetricSpline(const std::vector<double>& t, const std::vector<double>& values, Parity parity);
+    AxisymmetricSpline(const std::vector<double>& t, const std::vector<double>& values, Parity parity,
+                       FarEnd end = FarEnd::free);
 
     [[nodiscard]] double value(double t) const { return gsl_spline_eval(spline_.get(), t, nullptr); }
     [[nodiscard]] double derivative(double t) const { return gsl_spline_eval_deriv(spline_.get(), t, nullptr); }

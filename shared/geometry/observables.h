@@ -11,15 +11,17 @@ namespace endoflow {
 /// What can be measured on a membrane curve. Lengths in nm.
 struct Observables {
     std::optional<Neck> neck;
-    double bud_height;            // largest z − z(rim)
+    double bud_height;            // largest z − z(rim); of a closed curve largest less smallest z
     double membrane_area;         // ∫ dA, nm²
     double molecule_mass;         // ∫ c dA, nm²
     double bending_energy;        // (S) with the curve's own κ, pN nm
-    double extracellular_volume;  // gained against the plane through the rim: ∫ (z − z(rim)) 2πr dr, nm³
+    double extracellular_volume;  // gained against the plane through the rim: ∫ (z − z(rim)) 2πr dr, nm³; of a closed
+                                  // curve what it encloses
 };
 
 /// Throws std::invalid_argument unless the curve has at least 4 points and starts on the axis.
-/// Positions are splined (cubic, mirrored at the axis), so the error is O(h⁴) in the spacing of the points.
+/// Positions are splined (cubic, mirrored where the curve meets the axis), so the error is O(h⁴) in the spacing of the
+/// points.
 [[nodiscard]] Observables measure(const MembraneCurve& curve, const BendingModel& model);
 
 }  // namespace endoflow

@@ -14,9 +14,15 @@ constexpr double first_part = 1.0653e-6, longest_part = 0.021307;
 
 }  // namespace
 
+double size_of_membrane(const DomainParameters& d) {
+    if (d.kind == DomainKind::box) return d.radius;
+    return std::max(d.spheroid_polar_axis, d.spheroid_equatorial_axis);
+}
+
 double natural_time(const Parameters& p) {
     const BendingModel model(p.membrane);
-    const double stiffness = std::max(model.stiffness(0).value, model.stiffness(1).value), R = p.domain.radius;
+    const double stiffness = std::max(model.stiffness(0).value, model.stiffness(1).value),
+                 R = size_of_membrane(p.domain);
     if (p.fluid.dynamics == Dynamics::geometric)
         return std::pow(R * p.molecules.interface_width, 2) / (p.fluid.normal_mobility * stiffness);
     return (p.fluid.viscosity_extracellular + p.fluid.viscosity_intracellular) * std::pow(R, 3) / stiffness;

@@ -115,8 +115,7 @@ std::vector<ParameterRow> domain_rows() {
     using S = DomainParameters;
     return {
         row("domain", "kind", &P::domain, &S::kind, "", any(), "",
-            "box: membrane across a cylinder; free-space: closed vesicle in unbounded fluid (boundary-integral engine "
-            "only)"),
+            "box: membrane across a cylinder; free-space: closed vesicle in unbounded fluid"),
         row("domain", "radius", &P::domain, &S::radius, "nm", positive(1e5), "R", "radius of the cylindrical domain"),
         row("domain", "height", &P::domain, &S::height, "nm", positive(1e5), "",
             "height of the domain, 0 < z < height"),
@@ -236,6 +235,8 @@ std::vector<ParameterRow> phase_field_rows() {
             "size of the cells at the membrane; 0 = chosen by the scheme from ε and ε_c"),
         row("phase_field", "far_refinements", &P::phase_field, &S::far_refinements, "", at_least(0, 6), "",
             "cells far from the membrane are 2^this times larger; the paper: 3"),
+        row("phase_field", "free_space", &P::phase_field, &S::free_space, "", at_least(1.5, 100), "",
+            "free space: radius and half height of the box, in longer semi-axes of the spheroid"),
         row("phase_field", "band_width", &P::phase_field, &S::band_width, "", at_least(2, 20), "",
             "half width of the band of small cells around the membrane, in units of ε"),
         row("phase_field", "degree", &P::phase_field, &S::degree, "", at_least(2, 6), "",

@@ -104,6 +104,7 @@ struct PhaseFieldParameters {
     ViscosityMean viscosity_mean = ViscosityMean::arithmetic;
     double cell_size = 0;
     int far_refinements = 3;
+    double free_space = 8;
     double band_width = 4.5;
     int degree = 3;
     int velocity_degree = 3;

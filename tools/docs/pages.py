@@ -15,7 +15,7 @@ GROUPS = {
         "model", "boundary-integral", "phase-field", "phase-field-paper", "statics", "modes", "verification", "decisions/index",
     ),
     "Results": (
-        "results/standard-case", "results/sharp-refinement", "results/smooth-case", "results/patch-radii", "results/scheme-paper",
+        "results/standard-case", "results/sharp-refinement", "results/smooth-case", "results/patch-radii", "results/vesicles", "results/scheme-paper",
         "results/inference", "results/paper",
     ),
     "Development": ("architecture", "developer-guide", "extending", "roadmap"),

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "shared/model/initial_condition.h"
-
 namespace endoflow::phasefield::production {
 
 namespace {
@@ -33,34 +31,41 @@ bool without_tension(const Parameters& p) {
     return without_flow(p) || !p.membrane.inextensible;
 }
 
-double flat_moment(double r, double /*above*/, const Parameters& p, const BendingModel& model) {
-    const double c = initial_concentration(p.molecules, r);
-    return model.stiffness(c).value * model.spontaneous_curvature(c).value;
+bool in_free_space(const Parameters& p) {
+    return p.domain.kind == DomainKind::free_space;
 }
 
-Held no_radial_velocity(BoundaryId boundary, double /*above*/, const Parameters& /*p*/) {
-    return boundary == axis ? Held(0) : std::nullopt;
+// Around a vesicle the side rests, so that it cannot drift away, and fluid crosses top and bottom.
+Held no_radial_velocity(BoundaryId boundary, double /*above*/, const Parameters& p) {
+    return boundary == axis || (boundary == side && in_free_space(p)) ? Held(0) : std::nullopt;
 }
 Held pinned(BoundaryId boundary, double above, const Parameters& p) {
-    return at_rim(boundary, above, p.domain.pin_half_width) ? Held(0) : std::nullopt;
+    const bool held = in_free_space(p) ? boundary == side : at_rim(boundary, above, p.domain.pin_half_width);
+    return held ? Held(0) : std::nullopt;
+}
+bool at_layers_rim(BoundaryId boundary, double above, const Parameters& p) {
+    return !in_free_space(p) && at_rim(boundary, above, layer_half_width(p));
 }
 Held flat_at_rim(BoundaryId boundary, double above, const Parameters& p) {
-    return at_rim(boundary, above, layer_half_width(p)) ? Held(-above) : std::nullopt;
+    return at_layers_rim(boundary, above, p) ? Held(-above) : std::nullopt;
 }
 Held no_force_at_rim(BoundaryId boundary, double above, const Parameters& p) {
-    return at_rim(boundary, above, layer_half_width(p)) ? Held(0) : std::nullopt;
+    return at_layers_rim(boundary, above, p) ? Held(0) : std::nullopt;
 }
-Held unstretched_at_side(BoundaryId boundary, double /*above*/, const Parameters& /*p*/) {
-    return boundary == side ? Held(1) : std::nullopt;
+Held unstretched_at_side(BoundaryId boundary, double /*above*/, const Parameters& p) {
+    return boundary == side && !in_free_space(p) ? Held(1) : std::nullopt;
 }
 
-double height_below(double /*r*/, double above, const Parameters& /*p*/, const BendingModel& /*model*/) {
-    return -above;
+double initial_distance(const InitialPoint& at, const BendingModel& /*model*/) {
+    return at.distance;
 }
-double patch(double r, double /*above*/, const Parameters& p, const BendingModel& /*model*/) {
-    return initial_concentration(p.molecules, r);
+double initial_moment(const InitialPoint& at, const BendingModel& model) {
+    return model.stiffness(at.molecules).value * (model.spontaneous_curvature(at.molecules).value - at.curvature);
 }
-double one(double /*r*/, double /*above*/, const Parameters& /*p*/, const BendingModel& /*model*/) {
+double initial_molecules(const InitialPoint& at, const BendingModel& /*model*/) {
+    return at.molecules;
+}
+double one(const InitialPoint& /*at*/, const BendingModel& /*model*/) {
     return 1;
 }
 
@@ -90,10 +95,10 @@ const std::array<Unknown, n_fields>& unknowns() {
         {pressure, "pressure_outside_layer", of_pressure, nullptr, nullptr, without_flow},
         {pressure_layer, "layer_pressure", of_tension, nullptr, nullptr, without_flow},
         {tension, "lambda", of_tension, nullptr, nullptr, without_tension},
-        {distance, "distance", of_shape, flat_at_rim, height_below, nullptr},
+        {distance, "distance", of_shape, flat_at_rim, initial_distance, nullptr},
         {normal_force, "normal_force", of_shape, no_force_at_rim, nullptr, nullptr},
-        {moment, "moment", of_shape, nullptr, flat_moment, nullptr},
-        {molecule_density, "c", of_surface, nullptr, patch, nullptr},
+        {moment, "moment", of_shape, nullptr, initial_moment, nullptr},
+        {molecule_density, "c", of_surface, nullptr, initial_molecules, nullptr},
         {molecule_potential, "chemical_potential", of_surface, nullptr, nullptr, nullptr},
         {membrane_stretch, "stretching", of_surface, unstretched_at_side, one, without_flow},
     }};
@@ -108,11 +113,12 @@ std::vector<unsigned int> field_degrees(const PhaseFieldParameters& p) {
 
 Vector initial_fields(const Space& space, const Parameters& p, const BendingModel& model) {
     Vector out = space.vector();
+    const InitialMembrane membrane(p);
     for (const auto& unknown : unknowns())
         if (unknown.initial != nullptr)
             interpolate(
-                space, unknown.field,
-                [&](double r, double z) { return unknown.initial(r, z - p.domain.membrane_height, p, model); }, out);
+                space, unknown.field, [&](double r, double z) { return unknown.initial(membrane.at(r, z), model); },
+                out);
     finish_interpolation(space, out);
     return out;
 }

@@ -6,6 +6,7 @@
 
 #include "phasefield/contour/cell_contour.h"
 #include "phasefield/fem/space.h"
+#include "phasefield/layer/initial_membrane.h"
 #include "shared/model/bending_model.h"
 #include "shared/parameters/parameters.h"
 
@@ -44,8 +45,7 @@ struct Unknown {
     unsigned int (*degree)(const PhaseFieldParameters&);
     /// The value it is held at on a boundary, `above` the membrane's flat height [nm], if it is.
     std::optional<double> (*held)(dealii::types::boundary_id, double above, const Parameters&) = nullptr;
-    /// At radius r, `above` the flat membrane [nm].
-    double (*initial)(double r, double above, const Parameters&, const BendingModel&) = nullptr;
+    double (*initial)(const InitialPoint&, const BendingModel&) = nullptr;
     bool (*switched_off)(const Parameters&) = nullptr;
 };
 
@@ -55,7 +55,7 @@ const std::array<Unknown, n_fields>& unknowns();
 /// Polynomial degrees in the order of Field.
 std::vector<unsigned int> field_degrees(const PhaseFieldParameters& parameters);
 
-/// The flat membrane with its patch of molecules at rest.
+/// The membrane with its patch of molecules at rest.
 Vector initial_fields(const Space& space, const Parameters& parameters, const BendingModel& model);
 
 /// Where the membrane and the fields on it are found.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "phasefield/schemes/production/constants.h"
+#include "shared/model/time_scale.h"
 
 namespace endoflow::phasefield::production {
 
@@ -21,7 +22,7 @@ constexpr double thinnest = constant("thinnest");
 constexpr double thinning_slope = constant("thinning_slope");
 constexpr double thinning_window = constant("thinning_window");
 
-/// The curve by arc length, mirrored at the axis and straight beyond the rim.
+/// The curve by arc length, mirrored at the axis and straight beyond the rim. What lies behind the axis has negative r.
 class ByArcLength {
   public:
     explicit ByArcLength(const MembraneCurve& curve) : curve_(&curve) {
@@ -31,6 +32,10 @@ class ByArcLength {
 
     [[nodiscard]] PlanePoint at(double along) const {
         const double distance = std::abs(along);
+        if (curve_->closed() && distance > s.back()) {
+            const PlanePoint mirrored = at(2 * s.back() - distance);
+            return {-mirrored.r, mirrored.z};
+        }
         const auto after = std::upper_bound(s.begin() + 1, s.end() - 1, distance);
         const auto i = static_cast<std::size_t>(after - s.begin());
         const double t = (distance - s[i - 1]) / (s[i] - s[i - 1]);
@@ -79,7 +84,8 @@ std::array<double, 2> curvatures(const ByArcLength& path, double s, double windo
 }  // namespace
 
 std::vector<double> thickness_along(const MembraneCurve& curve, const Parameters& p) {
-    const double widest = p.phase_field.epsilon, radius = p.phase_field.production.thinning * p.domain.radius;
+    const double widest = p.phase_field.epsilon,
+                 radius = p.phase_field.production.thinning * size_of_membrane(p.domain);
     std::vector<double> epsilon(curve.size(), widest);
     if (radius == 0 || curve.size() < 3) return epsilon;
     const ByArcLength path(curve);

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "phasefield/layer/boundary_flux.h"
+#include "phasefield/layer/initial_membrane.h"
 #include "phasefield/output/field_file.h"
 #include "phasefield/schemes/production/bdf.h"
 #include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/refinement.h"
-#include "shared/model/initial_condition.h"
 #include "shared/model/time_scale.h"
 #include "shared/support/error.h"
 
@@ -31,7 +31,7 @@ constexpr double largest_motion = constant("largest_motion");
 
 /// Largest error of the membrane's position per step [nm].
 double position_tolerance(const Parameters& p) {
-    return error_part * p.time.tolerance * p.domain.radius;
+    return error_part * p.time.tolerance * size_of_membrane(p.domain);
 }
 
 }  // namespace
@@ -123,13 +123,7 @@ StepOutcome ProductionScheme::present() {
 }
 
 StepOutcome ProductionScheme::start() {
-    const double z0 = parameters_.domain.membrane_height;
-    MembraneCurve curve;
-    for (double r = 0; r <= parameters_.domain.radius; r += 0.25 * parameters_.phase_field.cell_size) {
-        curve.r.push_back(r);
-        curve.z.push_back(z0);
-        curve.c.push_back(initial_concentration(parameters_.molecules, r));
-    }
+    const MembraneCurve curve = InitialMembrane(parameters_).curve(0.25 * parameters_.phase_field.cell_size);
     while (flag_bands(*mesh_, refined_bands(curve, parameters_))) mesh_->execute_coarsening_and_refinement();
     renew();
 

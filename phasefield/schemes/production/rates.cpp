@@ -10,7 +10,7 @@ namespace endoflow::phasefield::production {
 
 SchemeRates scheme_rates(const Parameters& p) {
     const ProductionSchemeParameters& factors = p.phase_field.production;
-    const double radius = p.domain.radius, speed = radius / natural_time(p);
+    const double radius = size_of_membrane(p.domain), speed = radius / natural_time(p);
     const double fluidity = 1 / std::min(p.fluid.viscosity_extracellular, p.fluid.viscosity_intracellular);
     SchemeRates rates;
     rates.profile_relaxation = factors.profile_relaxation * speed;

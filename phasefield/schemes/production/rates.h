@@ -19,7 +19,8 @@ struct SchemeRates {
     double pressure_leak = 0;             // ∇·u per q [nm/(pN µs)]
 };
 
-/// Scales: the box's radius R, the membrane's speed V = R/natural_time, the smaller viscosity ν, and ε.
+/// Scales: the box's radius R, of a vesicle its longer semi-axis, the membrane's speed V = R/natural_time, the smaller
+/// viscosity ν, and ε.
 [[nodiscard]] SchemeRates scheme_rates(const Parameters& parameters);
 
 }  // namespace endoflow::phasefield::production

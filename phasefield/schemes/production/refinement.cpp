@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "phasefield/fem/flow_domain.h"
 #include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/layer_thickness.h"
 
@@ -92,16 +93,16 @@ double follow_after_motion(const Parameters& p) {
 
 std::vector<RefinedBand> refined_bands(const MembraneCurve& curve, const Parameters& parameters) {
     const auto& p = parameters.phase_field;
-    const auto layer_level = static_cast<unsigned int>(p.far_refinements);
+    const unsigned int level_of_layer = layer_level(parameters);
     const double band = p.band_width * p.epsilon, inner = fine_band * p.epsilon, outer = inner + p.cell_size;
     const Path path(curve, follow_after_motion(parameters));
-    std::vector<RefinedBand> out{{path.of(whole(curve)), layer_level, band, band + 2 * p.cell_size}};
+    std::vector<RefinedBand> out{{path.of(whole(curve)), level_of_layer, band, band + 2 * p.cell_size}};
     const double wanted = edge_cells * parameters.molecules.interface_width;
     const auto edge_levels = static_cast<unsigned int>(std::max(0.0, std::ceil(std::log2(p.cell_size / wanted))));
-    if (edge_levels > 0) out.push_back({path.of(patch_edge(curve)), layer_level + edge_levels, inner, outer});
+    if (edge_levels > 0) out.push_back({path.of(patch_edge(curve)), level_of_layer + edge_levels, inner, outer});
     const auto thickness = thickness_along(curve, parameters);
     double thin = p.epsilon / cells_slack, cell = p.cell_size;
-    unsigned int level = layer_level;
+    unsigned int level = level_of_layer;
     for (Indices part = thin_part(thickness, thin); !part.empty(); part = thin_part(thickness, thin)) {
         const double reach = p.band_width * thin;
         out.push_back({path.of(part), ++level, reach, reach + cell});
@@ -110,7 +111,7 @@ std::vector<RefinedBand> refined_bands(const MembraneCurve& curve, const Paramet
     }
     for (unsigned int halvings = 0; halvings < most_neck_levels; ++halvings) {
         const Indices neck = narrow_part(curve, p.cell_size / (1U << halvings) / neck_cells);
-        if (!neck.empty()) out.push_back({path.of(neck), layer_level + halvings + 1, inner, outer});
+        if (!neck.empty()) out.push_back({path.of(neck), level_of_layer + halvings + 1, inner, outer});
     }
     return out;
 }

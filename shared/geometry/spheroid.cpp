@@ -1,11 +1,12 @@
-#include "statics/spheroid.h"
+#include "shared/geometry/spheroid.h"
 
+#include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <numbers>
 
-namespace endoflow::statics {
+namespace endoflow {
 
 namespace {
 
@@ -18,8 +19,21 @@ double integral(const Function& function, double end) {
 
 }  // namespace
 
+double Spheroid::radius(double t) const {
+    return equator * std::sin(t);
+}
+
+double Spheroid::height(double t) const {
+    return polar * std::cos(t);
+}
+
 double Spheroid::metric(double t) const {
     return std::hypot(equator * std::cos(t), polar * std::sin(t));
+}
+
+double Spheroid::curvature(double t) const {
+    const double g = metric(t);
+    return equator * polar / (g * g * g) + polar / (equator * g);
 }
 
 double Spheroid::label(double t) const {
@@ -37,6 +51,20 @@ double Spheroid::parameter_of(double label_fraction) const {
     return 0.5 * (bracket.first + bracket.second);
 }
 
+double Spheroid::closest(double r, double z) const {
+    // In the quarter plane of the point one of its normals is the shortest; on the axis and in the plane of the equator
+    // a point beside it tells which.
+    const double beside = std::max(r, 1e-12 * equator), above = std::max(std::abs(z), 1e-12 * polar);
+    const auto slope = [&](double t) {  // of half the squared distance
+        return (radius(t) - beside) * equator * std::cos(t) - (height(t) - above) * polar * std::sin(t);
+    };
+    std::uintmax_t evaluations = 60;
+    const auto bracket = boost::math::tools::toms748_solve(slope, 0.0, pi / 2,
+                                                           boost::math::tools::eps_tolerance<double>(50), evaluations);
+    const double t = 0.5 * (bracket.first + bracket.second);
+    return z < 0 ? pi - t : t;
+}
+
 double Spheroid::area() const {
     return 2 * pi * label(pi);
 }
@@ -49,4 +77,4 @@ double Spheroid::length() const {
     return integral([this](double u) { return metric(u); }, pi);
 }
 
-}  // namespace endoflow::statics
+}  // namespace endoflow
