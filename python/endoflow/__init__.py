@@ -12,7 +12,7 @@ Reading needs numpy and h5py, nothing else; running needs the program (`program(
 """
 
 from .alarms import Alarm
-from .commands import compare, run, statics, sweep
+from .commands import compare, infer, run, statics, sweep
 from .errors import EndoflowError, OutOfRangeError, RunDirectoryError
 from .fields import Fields
 from .modes import Modes, load_modes
@@ -34,6 +34,7 @@ __all__ = [
     "Shape",
     "SolverError",
     "compare",
+    "infer",
     "load",
     "load_modes",
     "program",

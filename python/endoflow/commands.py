@@ -1,4 +1,4 @@
-"""The program's commands as functions: run, statics, sweep, compare."""
+"""The program's commands as functions: run, statics, sweep, compare, infer."""
 
 from __future__ import annotations
 
@@ -98,6 +98,30 @@ def compare(a: Union[Run, Directory], b: Union[Run, Directory], *, output: Direc
     call(["compare", *directories, "-o", str(output)])
     metrics: dict[str, Any] = json.loads((Path(output) / "metrics.json").read_text(encoding="utf-8"))
     return metrics
+
+
+def infer(
+    study: Directory,
+    *,
+    output: Directory | None = None,
+    calibrate: int = 0,
+    sensitivity: bool = False,
+    jobs: int | None = None,
+    processes: int = 1,
+) -> dict[str, Any]:
+    """Parameters from data: the study is a TOML file; returns infer.json and leaves it with plots and report.html in `output`.
+
+    calibrate: as many cases with known truth as well; sensitivity: Sobol indices as well. Runs that are finished in `output` [out/STUDY/infer]
+    are not repeated.
+    """
+    directory = Path(output) if output is not None else Path("out") / Path(study).stem / "infer"
+    arguments = ["infer", str(study), "-o", str(directory), "--processes", str(processes)]
+    arguments += [] if jobs is None else ["--jobs", str(jobs)]
+    arguments += ["--calibrate", str(calibrate)] if calibrate else []
+    arguments += ["--sensitivity"] if sensitivity else []
+    call(arguments)
+    results: dict[str, Any] = json.loads((directory / "infer.json").read_text(encoding="utf-8"))
+    return results
 
 
 def _value(cell: str) -> Any:

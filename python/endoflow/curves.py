@@ -1,14 +1,20 @@
 """Geometry of axisymmetric curves r(i), z(i), ordered from the axis to the rim. All lengths in nm."""
 
+from __future__ import annotations
+
+from typing import Sequence
+
 import numpy as np
 
+from .arrays import Array
 
-def arc_length(r, z):
+
+def arc_length(r: Array, z: Array) -> Array:
     """Chord length (n,) in nm from the first point to each point of the polyline r, z (n,)."""
     return np.concatenate(([0.0], np.cumsum(np.hypot(np.diff(r), np.diff(z)))))
 
 
-def area_from_axis(r, z):
+def area_from_axis(r: Array, z: Array) -> Array:
     """Area (n,) in nm² of the surface of revolution between the first point and each point of r, z (n,).
 
     Exact for the polyline: each chord sweeps a conical frustum.
@@ -17,7 +23,7 @@ def area_from_axis(r, z):
     return np.concatenate(([0.0], np.cumsum(frusta)))
 
 
-def equivalent_radius(r, z):
+def equivalent_radius(r: Array, z: Array) -> Array:
     """Radius (n,) in nm of the flat disc having the same area as the membrane between axis and each point.
 
     On an inextensible membrane this labels material points; on a flat one it equals r.
@@ -25,7 +31,7 @@ def equivalent_radius(r, z):
     return np.sqrt(area_from_axis(r, z) / np.pi)
 
 
-def closed_label(r, z):
+def closed_label(r: Array, z: Array) -> Array:
     """Label (n,) of the points of a closed curve by the area fraction f above them: arcsin √f, from 0 to π/2.
 
     Unlike f, it grows in proportion to the distance from either pole.
@@ -34,7 +40,7 @@ def closed_label(r, z):
     return np.arcsin(np.sqrt(area / area[-1]))
 
 
-def local_cubic(x, y, x_new):
+def local_cubic(x: Array, y: Array, x_new: Array) -> Array:
     """Interpolate y (n,) given at increasing x (n,) at x_new (m,) with a C¹ piecewise cubic; returns (m,).
 
     The slopes are those of the parabola through three neighbours, so the error is O(h³) and no knot is influenced by more than
@@ -54,14 +60,14 @@ def local_cubic(x, y, x_new):
     return value + h[i] * (t * (1 - t) ** 2 * slope[i] - t**2 * (1 - t) * slope[i + 1])
 
 
-def resample(r, z, spacing, *others):
+def resample(r: Array, z: Array, spacing: float, *others: Array) -> tuple[Array, ...]:
     """Resample a curve at equal arc length steps of at most `spacing` nm.
 
     r, z and every array of `others` have shape (n,). Positions are interpolated by a local cubic in chord length,
     the other quantities linearly. Returns the arrays (m,) in the same order; both end points are kept exactly.
     """
     length = arc_length(r, z)
-    keep = np.concatenate(([True], np.diff(length) > 0))
+    keep = np.append(True, np.diff(length) > 0)
     length, r, z = length[keep], np.asarray(r)[keep], np.asarray(z)[keep]
     count = max(2, int(np.ceil(length[-1] / spacing)) + 1)
     at = np.linspace(0.0, length[-1], count)

@@ -1,5 +1,9 @@
 """The errors this package raises on purpose."""
 
+from __future__ import annotations
+
+from pathlib import Path
+
 #: What to do about a file that a run should have written.
 RERUN = "repeat the run, or continue it with `endoflow run … --restart`"
 
@@ -14,7 +18,7 @@ class RunDirectoryError(EndoflowError):
     The message is one line: where, what, and what to do about it.
     """
 
-    def __init__(self, path, problem, remedy):
+    def __init__(self, path: Path, problem: str, remedy: str):
         super().__init__(f"{path}: {problem}; {remedy}")
         self.path = path
         self.problem = problem

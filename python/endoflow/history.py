@@ -1,9 +1,13 @@
 """history.csv: one row per accepted time step."""
 
+from __future__ import annotations
+
 import csv
+from pathlib import Path
 
 import numpy as np
 
+from .arrays import Array
 from .errors import RERUN, RunDirectoryError
 
 #: Columns every history must have; engines may add more.
@@ -25,7 +29,7 @@ REQUIRED_COLUMNS = (
 UNIT_WORDS = {"nm": "nm", "nm2": "nm²", "nm3": "nm³", "us": "µs", "s": "s", "pN": "pN"}
 
 
-def unit_of(column):
+def unit_of(column: str) -> str:
     """Unit of a history column as text, from its name: "x_pN_nm_per_us" is in "pN nm/µs"; "1" for a number without unit."""
     words = column.split("_")[1:]
     start = len(words)
@@ -36,7 +40,7 @@ def unit_of(column):
     return f"{above or '1'}/{below}" if below else above or "1"
 
 
-def read_history(path):
+def read_history(path: Path) -> dict[str, Array]:
     """Read a history.csv into {column name: float array (rows,)}; empty cells become nan.
 
     Raises RunDirectoryError when the file is missing, lacks a column, has a malformed row, or when time runs backwards.
@@ -63,7 +67,7 @@ def read_history(path):
     return history
 
 
-def _parse_row(path, number, row, header):
+def _parse_row(path: Path, number: int, row: list[str], header: list[str]) -> list[float]:
     """Cells of one row as floats; `number` is its line in the file."""
     if len(row) != len(header):
         raise RunDirectoryError(path, f"line {number} has {len(row)} cells where the header has {len(header)}", RERUN)

@@ -1,13 +1,17 @@
 """The directory of `endoflow modes`: growth rates, eigenshapes and what perturbations become."""
 
+from __future__ import annotations
+
 import csv
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Union
 
-import h5py
 import numpy as np
 
+from .arrays import Array
 from .errors import RunDirectoryError
+from .hdf5 import h5py
 
 REMEDY = "repeat `endoflow modes`"
 
@@ -21,10 +25,10 @@ class ModeShapes:
     """
 
     growth: float
-    w: np.ndarray
-    c: np.ndarray
-    worst: np.ndarray
-    worst_at_start: np.ndarray
+    w: Array
+    c: Array
+    worst: Array
+    worst_at_start: Array
 
 
 @dataclass(frozen=True)
@@ -32,12 +36,12 @@ class Meridian:
     """The axisymmetric membrane at `time` (µs): arrays (n,) from the axis to the rim, nm; the normal points into the cell."""
 
     time: float
-    r: np.ndarray
-    z: np.ndarray
-    normal_r: np.ndarray
-    normal_z: np.ndarray
-    c: np.ndarray
-    modes: dict  # {m: ModeShapes}
+    r: Array
+    z: Array
+    normal_r: Array
+    normal_z: Array
+    c: Array
+    modes: dict[int, ModeShapes]
 
 
 @dataclass(frozen=True)
@@ -48,29 +52,29 @@ class Modes:
     """
 
     directory: Path
-    times: np.ndarray
+    times: Array
     budding: float | None
-    meridians: list
-    rates: dict
-    perturbations: dict
+    meridians: list[Meridian]
+    rates: dict[int, Array]
+    perturbations: dict[tuple[int, str], dict[str, Array]]
 
     @property
-    def modes(self):
+    def modes(self) -> list[int]:
         """The azimuthal modes, increasing."""
         return sorted(self.rates)
 
     @property
-    def initial_shapes(self):
+    def initial_shapes(self) -> list[str]:
         """Names of the initial shapes, in the order of the file."""
         return list(dict.fromkeys(initial for _, initial in self.perturbations))
 
     @property
-    def last_index(self):
+    def last_index(self) -> int:
         """Index of the time of budding, of the last time without one."""
         return len(self.times) - 1 if self.budding is None else int(np.argmin(np.abs(self.times - self.budding)))
 
 
-def load_modes(directory):
+def load_modes(directory: Union[str, Path]) -> Modes:
     """Read the directory (path) of `endoflow modes` as Modes. Raises RunDirectoryError."""
     directory = Path(directory)
     try:
@@ -80,7 +84,8 @@ def load_modes(directory):
             meridians = sorted((_meridian(group) for group in times.values()), key=lambda meridian: meridian.time)
         spectrum = _rows(directory / "modes.csv")
         followed = _rows(directory / "perturbations.csv")
-        rates, perturbations = {}, {}
+        rates: dict[int, list[float]] = {}
+        perturbations: dict[tuple[int, str], dict[str, list[float]]] = {}
         for row in spectrum:
             if row["rank"] == "0":
                 rates.setdefault(int(row["mode"]), []).append(float(row["growth_per_us"]))
@@ -103,16 +108,16 @@ def load_modes(directory):
     )
 
 
-def _rows(path):
+def _rows(path: Path) -> list[dict[str, str]]:
     with path.open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
 
 
-def _meridian(group):
+def _meridian(group: h5py.Group) -> Meridian:
     modes = {}
     for name, mode in group.items():
         if name.startswith("mode_"):
             arrays = (mode[key][:] for key in ("w", "c", "worst", "worst_at_start"))
             modes[int(name.removeprefix("mode_"))] = ModeShapes(float(mode.attrs["growth_per_us"]), *arrays)
-    base = (group[key][:] for key in ("r", "z", "normal_r", "normal_z", "c"))
-    return Meridian(float(group.attrs["time"]), *base, modes)
+    base = {key: group[key][:] for key in ("r", "z", "normal_r", "normal_z", "c")}
+    return Meridian(time=float(group.attrs["time"]), **base, modes=modes)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import shutil
 import signal
 import subprocess
 import tempfile
+from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 from typing import Callable, Sequence
+from urllib.parse import unquote, urlsplit
 
 from .errors import EndoflowError
 
@@ -55,7 +58,8 @@ ERRORS = {error.exit_code: error for error in (InputError, SolverError, FileErro
 
 
 def program() -> Path:
-    """Path of the program: the environment variable ENDOFLOW, PATH, the installation or build directory beside this package.
+    """Path of the program: the environment variable ENDOFLOW, PATH, the installation or build directory beside this package or beside
+    the directory from which pip installed it.
 
     Raises FileError that says how to get it.
     """
@@ -68,10 +72,21 @@ def program() -> Path:
     above = Path(__file__).resolve().parents
     candidates = [Path(in_path)] if in_path else []
     candidates += [above[2] / "build" / "endoflow", *(root / "bin" / "endoflow" for root in above[4:5])]
+    candidates += [directory.parent / "build" / "endoflow" for directory in _pip_source()]
     for candidate in candidates:
         if os.access(candidate, os.X_OK):
             return candidate
     raise FileError(HOW_TO_GET_IT)
+
+
+def _pip_source() -> list[Path]:
+    """The directory given to `pip install`, if there was one (direct_url.json of PEP 610)."""
+    with contextlib.suppress(PackageNotFoundError, KeyError, ValueError):
+        origin = distribution("endoflow").read_text("direct_url.json")
+        url = urlsplit(json.loads(origin)["url"] if origin else "")
+        if url.scheme == "file":
+            return [Path(unquote(url.path))]
+    return []
 
 
 def call(arguments: Sequence[str], watch: Callable[[], None] | None = None, launcher: Sequence[str] = ()) -> None:
@@ -103,7 +118,7 @@ def call(arguments: Sequence[str], watch: Callable[[], None] | None = None, laun
             raise _error(errors.read().decode("utf-8", "replace"), process.returncode)
 
 
-def _stop(process: subprocess.Popen) -> None:
+def _stop(process: subprocess.Popen[bytes]) -> None:
     """Interrupt the program and wait for its end; kill it when that is interrupted too."""
     try:
         process.send_signal(signal.SIGINT)

@@ -1,16 +1,23 @@
 """A whole run directory."""
 
+from __future__ import annotations
+
 import json
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
-from .alarms import alarms_of, is_alarm
+from .alarms import Alarm, alarms_of, is_alarm
+from .arrays import Array
 from .errors import RERUN, OutOfRangeError, RunDirectoryError
-from .fields import field_files, read_fields
+from .fields import Fields, field_files, read_fields
 from .history import read_history, unit_of
-from .shapes import between, read_shapes
+from .shapes import Shape, between, read_shapes
+
+if TYPE_CHECKING:
+    import xarray
 
 
 @dataclass(frozen=True)
@@ -24,47 +31,47 @@ class Run:
     """
 
     directory: Path
-    record: dict
-    parameters: dict
-    history: dict = field(repr=False)
-    shapes: list = field(repr=False)
+    record: dict[str, Any]
+    parameters: dict[str, Any]
+    history: dict[str, Array] = field(repr=False)
+    shapes: list[Shape] = field(repr=False)
 
     @property
-    def engine(self):
+    def engine(self) -> str:
         """Name of the engine: "boundary-integral" or "phase-field"."""
-        return self.record["engine"]
+        return str(self.record["engine"])
 
     @property
-    def history_units(self):
+    def history_units(self) -> dict[str, str]:
         """{column: unit}, read off the column names."""
         return {column: unit_of(column) for column in self.history}
 
     @property
-    def shape_times(self):
+    def shape_times(self) -> Array:
         """Times (µs) of the shapes, shape (number of shapes,)."""
         return np.array([shape.time for shape in self.shapes])
 
     @property
-    def field_times(self):
+    def field_times(self) -> Array:
         """Times (µs) of the fields for ParaView, shape (number of files,)."""
         return np.array([time for time, _ in field_files(self.directory)])
 
-    def fields_at(self, time):
+    def fields_at(self, time: float) -> Fields | None:
         """The Fields nearest to `time` (µs); None when the run wrote none."""
         files = field_files(self.directory)
         return read_fields(*min(files, key=lambda entry: abs(entry[0] - time))) if files else None
 
-    def event_time(self, name):
+    def event_time(self, name: str) -> float | None:
         """Time (µs) of the event called `name` (e.g. "budding"), or None."""
         event = self.record.get("events", {}).get(name)
         return None if event is None else float(event["time_us"])
 
     @property
-    def alarms(self):
+    def alarms(self) -> list[Alarm]:
         """What left the bounds of an accurate run, a list of Alarm; empty for a run that may be trusted."""
         return alarms_of(self.record)
 
-    def until(self, time):
+    def until(self, time: float) -> Run:
         """The run as it would be had it ended at `time` (µs): rows, shapes and events up to then."""
         latest = time + 1e-9 * max(1.0, abs(time))
         kept = self.history["time_us"] <= latest
@@ -77,17 +84,17 @@ class Run:
             shapes=[shape for shape in self.shapes if shape.time <= latest],
         )
 
-    def to_xarray(self, points=200):
+    def to_xarray(self, points: int = 200) -> xarray.Dataset:
         """The run as an xarray.Dataset: every history column over `time`, and the shapes at `points` points each, with units."""
         from .labelled import dataset
 
         return dataset(self, points)
 
-    def history_at(self, column, time):
+    def history_at(self, column: str, time: float | Array) -> Any:
         """A history column interpolated linearly at `time` (µs; number or array); nan outside the run and beside gaps."""
         return np.interp(time, self.history["time_us"], self.history[column], left=np.nan, right=np.nan)
 
-    def shape_at(self, time):
+    def shape_at(self, time: float) -> Shape:
         """The membrane at `time` (µs), interpolated between the neighbouring shapes at fixed material points.
 
         Raises OutOfRangeError before the first or after the last shape.
@@ -105,7 +112,7 @@ class Run:
         return between(self.shapes[after - 1], self.shapes[after], float(time))
 
 
-def load(directory):
+def load(directory: Union[str, Path]) -> Run:
     """Read a run directory (path) into a Run. Raises RunDirectoryError when something is missing or damaged."""
     directory = Path(directory)
     if not directory.is_dir():
@@ -120,7 +127,7 @@ def load(directory):
     )
 
 
-def _read_record(path):
+def _read_record(path: Path) -> dict[str, Any]:
     """run.json as a dict with at least `engine` and `parameters`."""
     try:
         record = json.loads(path.read_text(encoding="utf-8"))

@@ -1,12 +1,16 @@
 """shapes.h5: the membrane curve, axis to rim, at each output time."""
 
-from dataclasses import dataclass
+from __future__ import annotations
 
-import h5py
+from dataclasses import dataclass
+from pathlib import Path
+
 import numpy as np
 
+from .arrays import Array
 from .curves import closed_label, equivalent_radius, local_cubic
 from .errors import RERUN, RunDirectoryError
+from .hdf5 import h5py
 
 #: Datasets of each group /shapes/NNNNNN. The attribute of Shape has the same name, `lambda_` for `lambda`.
 FIELDS = ("s", "r", "z", "c", "lambda", "kappa", "u_r", "u_z")
@@ -23,35 +27,35 @@ class Shape:
     """
 
     time: float
-    s: np.ndarray
-    r: np.ndarray
-    z: np.ndarray
-    c: np.ndarray
-    lambda_: np.ndarray
-    kappa: np.ndarray
-    u_r: np.ndarray
-    u_z: np.ndarray
+    s: Array
+    r: Array
+    z: Array
+    c: Array
+    lambda_: Array
+    kappa: Array
+    u_r: Array
+    u_z: Array
 
-    def __getitem__(self, field):
+    def __getitem__(self, field: str) -> Array:
         """The array of a dataset name, e.g. shape["lambda"]."""
         if field not in FIELDS:
             raise KeyError(field)
         return getattr(self, _attribute(field))
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self.r)
 
     @property
-    def closed(self):
+    def closed(self) -> bool:
         """Whether the curve ends on the axis again."""
         return bool(self.r[-1] <= 1e-9 * self.r.max())
 
 
-def _attribute(field):
+def _attribute(field: str) -> str:
     return "lambda_" if field == "lambda" else field
 
 
-def read_shapes(path):
+def read_shapes(path: Path) -> list[Shape]:
     """Read every shape of a shapes.h5, in order of time, as a list of Shape.
 
     Raises RunDirectoryError when the file is missing, damaged, empty, or a curve is inconsistent.
@@ -73,7 +77,7 @@ def read_shapes(path):
     return sorted(shapes, key=lambda shape: shape.time)
 
 
-def _read_shape(path, group):
+def _read_shape(path: Path, group: h5py.Group) -> Shape:
     """One group /shapes/NNNNNN as a Shape, after checking it."""
     missing = [name for name in FIELDS if name not in group]
     if missing:
@@ -96,7 +100,7 @@ def _read_shape(path, group):
     return Shape(time, **{_attribute(name): array for name, array in arrays.items()})
 
 
-def between(first, second, time):
+def between(first: Shape, second: Shape, time: float) -> Shape:
     """The membrane at `time` (µs), first.time <= time <= second.time, as a Shape: linear in time at fixed material points.
 
     Material points are labelled by the area between them and the axis, which an inextensible membrane conserves. Membrane that
@@ -106,18 +110,18 @@ def between(first, second, time):
     if first.closed and second.closed:
         return _between_closed(first, second, weight, time)
     label = np.union1d(equivalent_radius(first.r, first.z), equivalent_radius(second.r, second.z))
-    label = label[np.concatenate(([True], np.diff(label) > 1e-6))]
+    label = label[np.append(True, np.diff(label) > 1e-6)]
     a, b = _continued(first, label), _continued(second, label)
     mixed = {name: (1 - weight) * a[name] + weight * b[name] for name in FIELDS}
     rim = (1 - weight) * first.r[-1] + weight * second.r[-1]
     return Shape(time, **{_attribute(name): array for name, array in _cut_at(mixed, rim).items()})
 
 
-def _between_closed(first, second, weight, time):
+def _between_closed(first: Shape, second: Shape, weight: float, time: float) -> Shape:
     """between() for closed curves: at equal fractions of the area, through a label that is smooth at both poles."""
     labels = [closed_label(shape.r, shape.z) for shape in (first, second)]
     label = np.union1d(*labels)
-    label = label[np.concatenate(([True], np.diff(label) > 1e-9))]
+    label = label[np.append(True, np.diff(label) > 1e-9)]
     mixed = {}
     for name in FIELDS:
         smooth = local_cubic if name in ("r", "z") else _linear
@@ -126,11 +130,11 @@ def _between_closed(first, second, weight, time):
     return Shape(time, **{_attribute(name): array for name, array in mixed.items()})
 
 
-def _linear(x, y, x_new):
+def _linear(x: Array, y: Array, x_new: Array) -> Array:
     return np.interp(x_new, x, y)
 
 
-def _continued(shape, label):
+def _continued(shape: Shape, label: Array) -> dict[str, Array]:
     """Every field of `shape` at the material labels (m,) in nm, with a flat continuation beyond the rim."""
     own = equivalent_radius(shape.r, shape.z)
     outside = label > own[-1]
@@ -141,7 +145,7 @@ def _continued(shape, label):
     return fields
 
 
-def _cut_at(fields, rim):
+def _cut_at(fields: dict[str, Array], rim: float) -> dict[str, Array]:
     """Fields of a curve that crosses r = rim (nm) near its end, cut there by interpolation."""
     r = fields["r"]
     inside = np.nonzero(r < rim - 1e-9)[0]

@@ -218,23 +218,6 @@ class Results(unittest.TestCase):
         self.assertEqual(outside, "| 99 | – | – | – | – | – |")
 
 
-class Tutorial(unittest.TestCase):
-    def test_runs_as_a_whole(self):
-        import synthetic
-
-        with tempfile.TemporaryDirectory() as scratch:
-            run, _ = synthetic.write_pair(Path(scratch), count=9)
-            process = subprocess.run(
-                [sys.executable, str(locations.ROOT / "python" / "tutorial.py"), str(run)],
-                capture_output=True,
-                text=True,
-                env={**os.environ, "PYTHONPATH": str(locations.ROOT / "python"), "MPLBACKEND": "Agg"},
-            )
-            self.assertEqual((process.returncode, process.stderr), (0, ""))
-            self.assertIn("budding: 0.7346", process.stdout)
-            self.assertTrue((run / "tutorial.png").exists())
-
-
 @unittest.skipUnless(shutil.which("snakemake"), "snakemake is not installed (Debian package snakemake)")
 class Workflow(unittest.TestCase):
     def test_dry_run(self):

@@ -1,8 +1,10 @@
-"""A sweep's array on a real Slurm: munged, slurmctld and slurmd of Debian (slurm-wlm, munge), started by the test for itself.
+"""A sweep's array and MPI runs on a real Slurm: munged, slurmctld and slurmd of Debian (slurm-wlm, munge), started by the test for itself.
 
 Left out where these programs are missing, or without root, whom slurmd needs.
 """
 
+import csv
+import json
 import os
 import shutil
 import socket
@@ -12,11 +14,15 @@ import time
 import unittest
 from pathlib import Path
 
-from studies import BOUNDARY_INTEGRAL, SweepTest
+from studies import BOUNDARY_INTEGRAL, StudyTest, SweepTest
 
 NEEDED = ("munged", "slurmctld", "slurmd", "sbatch", "squeue")
 PATHS = "/usr/sbin:/sbin:" + os.environ.get("PATH", "")
 MISSING = [name for name in NEEDED if shutil.which(name, path=PATHS) is None]
+
+#: The program itself, and the engine beside it.
+PROGRAM = os.path.abspath(os.environ.get("ENDOFLOW_PROGRAM", "endoflow"))
+ENGINE = Path(PROGRAM).with_name("endoflow-phase-field")
 
 #: Most seconds for the cluster to be ready, and for an array to end: the time limit of a minute is in it, and Slurm's own periods.
 READY, ENDED = 120, 900
@@ -125,11 +131,8 @@ class Cluster:
             time.sleep(0.5)
 
 
-@unittest.skipIf(MISSING, f"Slurm is not installed ({', '.join(MISSING)}; Debian packages slurm-wlm and munge)")
-@unittest.skipIf(os.geteuid() != 0, "slurmd needs root")
-class OnSlurm(SweepTest):
-    #: Twelve members: a radius of 17 fails, one of 22 does not end before its time limit while the file `slow` is there.
-    ARRAY = ("--vary", "molecules.patch_radius=17,18,19,20,21,22,23,24,25,26,27,28", *BOUNDARY_INTEGRAL)
+class ClusterTest(StudyTest):
+    """Adds self.cluster, which runs."""
 
     def setUp(self):
         super().setUp()
@@ -139,6 +142,13 @@ class OnSlurm(SweepTest):
         self.cluster = Cluster(Path(holder.name))
         self.addCleanup(self.cluster.stop)
         self.cluster.start()
+
+
+@unittest.skipIf(MISSING, f"Slurm is not installed ({', '.join(MISSING)}; Debian packages slurm-wlm and munge)")
+@unittest.skipIf(os.geteuid() != 0, "slurmd needs root")
+class OnSlurm(ClusterTest, SweepTest):
+    #: Twelve members: a radius of 17 fails, one of 22 does not end before its time limit while the file `slow` is there.
+    ARRAY = ("--vary", "molecules.patch_radius=17,18,19,20,21,22,23,24,25,26,27,28", *BOUNDARY_INTEGRAL)
 
     def submit(self, *options):
         """sbatch the sweep's script; returns when the queue is empty."""
@@ -181,6 +191,68 @@ class OnSlurm(SweepTest):
         for row in (row for table in tables for row in table):
             row["directory"] = Path(row["directory"]).parent.name
         self.assertEqual(*tables)
+
+
+@unittest.skipIf(MISSING, f"Slurm is not installed ({', '.join(MISSING)}; Debian packages slurm-wlm and munge)")
+@unittest.skipIf(os.geteuid() != 0, "slurmd needs root")
+@unittest.skipUnless(ENGINE.is_file(), "the phase-field engine was not built")
+class MpiOnSlurm(ClusterTest):
+    """The diffuse engine with two tasks: started by Slurm itself (srun, PMIx), and by OpenMPI's mpirun in an array's member."""
+
+    #: Two steps of a thick layer.
+    SETTINGS = ("phase_field.epsilon=2.4", "output.field_interval=0")
+    SHORT = ("--until", "2e-5", *(part for setting in SETTINGS for part in ("--set", setting)))
+
+    def slurm(self, *words):
+        """Run a command of Slurm, which succeeds; returns what it printed."""
+        environment = {**self.cluster.environment, "ENDOFLOW_PROGRAM": PROGRAM}
+        process = subprocess.run(words, cwd=self.scratch, env=environment, capture_output=True, text=True, timeout=ENDED)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return process.stdout
+
+    def srun(self, output, *options):
+        return ("srun", "--ntasks=2", "--mpi=pmix", PROGRAM, "run", "phase-field", "case.toml", "-o", output, *options)
+
+    def last(self, directory):
+        """(run.json, last row of history.csv) of a run."""
+        record = json.loads((self.scratch / directory / "run.json").read_text())
+        with open(self.scratch / directory / "history.csv", newline="", encoding="utf-8") as file:
+            return record, [*csv.DictReader(file)][-1]
+
+    def test_srun_and_mpirun(self):
+        self.slurm(*self.srun("by_srun", *self.SHORT))
+        sweep = ("sweep", "case.toml", "--engine", "phase-field", "--vary", "molecules.patch_radius=36", "--processes", "2", *self.SHORT)
+        environment = {**os.environ, "ENDOFLOW_PROGRAM": PROGRAM}
+        for option in ("--slurm", "--collect"):
+            command = [*self.arguments(*sweep), option]
+            process = subprocess.run(command, cwd=self.scratch, env=environment, capture_output=True, text=True, timeout=ENDED)
+            self.assertEqual(process.returncode, 0, process.stderr)
+            if option == "--slurm":
+                self.slurm("sbatch", "--wait", "out/case/sweep/sweep.sbatch")
+        runs = [self.last(name) for name in ("by_srun", "out/case/sweep/patch_radius=36/phase-field")]
+        for record, _ in runs:
+            self.assertEqual((record["state"], record["processes"]), ("finished", 2))
+        # The same processes, the same sums: nothing but the order of OpenMPI's reductions may differ.
+        heights = [float(row["bud_height_nm"]) for _, row in runs]
+        self.assertAlmostEqual(heights[0] / heights[1], 1, delta=1e-8)
+
+    def test_a_signal_leaves_a_checkpoint(self):
+        """scancel --signal=INT reaches both tasks; a second submission goes on."""
+        job = self.slurm("sbatch", "--parsable", "--ntasks=2", "--wrap", " ".join(self.srun("run", *self.SHORT[2:]))).strip()
+        history = self.scratch / "run" / "history.csv"
+        end = time.monotonic() + ENDED
+        while not (history.exists() and history.read_text().count("\n") > 2):
+            self.assertLess(time.monotonic(), end, self.cluster.ask("squeue"))
+            time.sleep(0.5)
+        self.slurm("scancel", "--signal=INT", job)
+        self.cluster.wait()
+        record, row = self.last("run")
+        self.assertEqual((record["state"], record["processes"]), ("interrupted", 2))
+        reached = float(row["time_us"])
+        self.slurm(*self.srun("run", *self.SHORT[2:], "--until", f"{1.5 * reached:.12g}", "--restart"))
+        record, row = self.last("run")
+        self.assertEqual(record["state"], "finished")
+        self.assertAlmostEqual(float(row["time_us"]) / reached, 1.5, delta=1e-9)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""tools/docs/check.py BUILD [--parse]: runs the commands of README.md and docs/; --parse only parses them all.
+"""tools/docs/check.py BUILD [--parse]: runs the commands of README.md and docs/ and the notebooks; --parse only parses the commands.
 
 Blocks run in the order of the pages in one scratch directory that holds links to the project's build, cases and python.
 docs/developer-guide.md says how a block is marked. Exit code 1 when something fails, with the command and what it said.
@@ -63,6 +63,18 @@ def run(block, scratch, build):
     if process.returncode != code:
         return f"exit code {process.returncode} instead of {code}\n{process.stdout[-1500:]}{process.stderr[-1500:]}"
     return ""
+
+
+def execute(notebook, scratch, build):
+    """Execute a notebook (path) in a directory of its own below scratch; returns what is wrong, or ""."""
+    own = scratch / "notebooks" / notebook.stem
+    own.mkdir(parents=True)
+    started = time.monotonic()
+    command = [python_of(build), str(Path(__file__).with_name("notebooks.py")), str(notebook), str(own)]
+    variables = {**environment(build), "PYTHONPATH": str(ROOT / "python")}
+    process = subprocess.run(command, env=variables, capture_output=True, text=True, check=False)
+    print(f"{time.monotonic() - started:6.1f} s  {notebook.relative_to(ROOT)}", flush=True)
+    return process.stderr[-3000:].strip() if process.returncode else ""
 
 
 def parse(block, build):
@@ -131,6 +143,11 @@ def main(arguments):
                 counts["parsed" if only_parsed else "run"] += 1
                 if problem:
                     failures.append(f"{readable(block)}\n    {problem.strip()}")
+        for notebook in [] if parse_only else sorted((ROOT / "python" / "notebooks").glob("*.ipynb")):
+            problem = execute(notebook, Path(scratch), build)
+            counts["run"] += 1
+            if problem:
+                failures.append(f"{notebook.relative_to(ROOT)}\n    {problem}")
     print(f"{counts['run']} blocks run, {counts['parsed']} parsed, {len(failures)} failed")
     print("\n".join(failures), file=sys.stderr)
     return 1 if failures else 0
