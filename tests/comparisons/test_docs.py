@@ -218,20 +218,5 @@ class Results(unittest.TestCase):
         self.assertEqual(outside, "| 99 | – | – | – | – | – |")
 
 
-@unittest.skipUnless(shutil.which("snakemake"), "snakemake is not installed (Debian package snakemake)")
-class Workflow(unittest.TestCase):
-    def test_dry_run(self):
-        snakefile = locations.ROOT / "cases" / "Snakefile"
-        with tempfile.TemporaryDirectory() as scratch:
-            process = subprocess.run(
-                ["snakemake", "--snakefile", str(snakefile), "--cores", "1", "--dry-run", "--printshellcmds"],
-                cwd=scratch,
-                capture_output=True,
-                text=True,
-            )
-        self.assertEqual(process.returncode, 0, process.stderr)
-        self.assertIn("run boundary-integral", process.stdout + process.stderr)
-
-
 if __name__ == "__main__":
     unittest.main()
