@@ -56,11 +56,12 @@ Json write_state(StateWriter& writer, const Parameters& named, const Parameters&
     const ShapeIntegrals integrals = shape_integrals(solved, point.solution, rule);
     const Loads loads = loads_of(solved);
     const double apex_height = curve.z.front() - curve.z.back();
-    Json figures = writer.write(
-        curve, BendingModel(solved.membrane),
-        {named.molecules.patch_radius, named.membrane.spontaneous_curvature, curve.s.back(), apex_height,
-         curve.lambda.front(), point.arc_length, static_cast<double>(point.folds_before), loads.rim_tension,
-         loads.pressure, loads.pole_force, integrals.extension, integrals.potential(loads), integrals.edge});
+    Json figures =
+        writer.write(curve, BendingModel(solved.membrane),
+                     {named.molecules.patch_radius, named.membrane.spontaneous_curvature, curve.s.back(), apex_height,
+                      curve.lambda.front(), point.arc_length, static_cast<double>(point.folds_before),
+                      loads.rim_tension, loads.pressure, loads.pole_force, integrals.extension,
+                      integrals.potential(loads), integrals.edge, point.solution.parameter});
     figures["apex_height_nm"] = apex_height;
     figures["tension_at_axis_pN_per_nm"] = curve.lambda.front();
     const bool coupled = energetically_coupled(solved.molecules);
@@ -149,7 +150,7 @@ EngineIdentity identity(const Parameters& parameters) {
             : std::vector<std::string>{"patch_radius_nm", "spontaneous_curvature_per_nm", "curve_length_nm",
                                        "apex_height_nm", "tension_at_axis_pN_per_nm", "branch_length", "folds_passed",
                                        "rim_tension_pN_per_nm", "pressure_difference_pN_per_nm2", "pole_force_pN",
-                                       "pole_extension_nm", "potential_pN_nm", "line_energy_pN_nm"},
+                                       "pole_extension_nm", "potential_pN_nm", "line_energy_pN_nm", "followed_value"},
         1,
         1,
         RowOrder::along_a_branch};

@@ -24,6 +24,11 @@ TENSIONS = {
 }
 
 
+#: The edge of their code's coat, (1 − tanh γ(α − α₀))/2 in the area A = 2π R₀² α with R₀ = 20 nm and γ = 20, is that of
+#: ε_c = R₀²/(√2 γ r_c) here; r_c where the coat snaps.
+THEIR_EDGE = 20.0**2 / (math.sqrt(2) * 20 * 80)
+
+
 def wanted(quick):
     """No runs: branches are made with the item."""
     return []
@@ -69,9 +74,19 @@ def result(runs, quick):
                     "neck_radius_nm": float(neck) if math.isfinite(neck) else "",
                 }
             )
+    with_their_edge = followed(
+        "snap-through",
+        "molecules.patch_radius",
+        TENSIONS[0.02][0],
+        {"molecules.patch_radius": "60", "molecules.interface_width": f"{THEIR_EDGE:.4g}"},
+    )
+    folds = ", ".join(text(float(coat_area(fold)), 6) for fold in with_their_edge.folds)
+    words = "code’s coat: tanh of 20 (A − A₀)/(2π (20 nm)²)"
+    printed.append(Printed("the same under 0.02 pN/nm with their coat’s edge", words, {"": f"folds at {folds} nm² of coat"}))
     remarks = [
         "Their energy is 320 pN nm (H − C₀)² with the mean curvature H, here β = 160 pN nm and C = 2C₀ = 0.04/nm, in coat and bare "
         "membrane alike; box of 400 nm. What the paper says is taken from its text; its curves are not printed as numbers.",
-        "Their coat has a tanh profile in area; here its edge is 1.2 nm wide. Both are fixed on the material.",
+        "Their coat has a tanh profile in area, 20 being the sharpness that their code’s translation by A. Mahdavian "
+        "(github.com/mahdavian74/MembraneMechanics_Hassinger_PNAS_2017) runs with; the edge of the branches drawn here is 1.2 nm wide.",
     ]
     return Result(rows, {"hassinger2017": (TITLE, draw(branches))}, printed, remarks)

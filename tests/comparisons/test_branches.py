@@ -8,7 +8,7 @@ import locations  # noqa: F401
 import numpy as np
 from comparisons.commands import reproduce
 from comparisons.errors import StudyError
-from comparisons.paper import OTHERS, branches, derenyi2002, hassinger2017
+from comparisons.paper import OTHERS, branches, derenyi2002, hassinger2017, juelicher1996
 
 
 class ReadOff(unittest.TestCase):
@@ -29,8 +29,36 @@ class ReadOff(unittest.TestCase):
         with mock.patch.object(hassinger2017, "followed", return_value=branches.Branch(columns, [80.0, 70.0], "here")):
             result = hassinger2017.result({}, False)
         self.assertIn("folds at 20106.2, 15393.8 nm²", result.printed[0].ours[""])  # π 80², π 70²
+        self.assertIn("20106.2", result.printed[-1].ours[""])
         self.assertEqual(len(result.rows), 4 * len(hassinger2017.TENSIONS))
         self.assertEqual(result.rows[0]["neck_radius_nm"], "")
+
+    def test_buds_by_line_tension(self):
+        """An instability that C lowers by C^(2/3), and necks whose closing is known."""
+        radius = juelicher1996.domain_radius()
+        self.assertAlmostEqual(radius**2 + np.sqrt(2) * juelicher1996.WIDTH / 12 * juelicher1996.RIM**2 / radius, 1e4)
+        per_line_energy = juelicher1996.line_tension(1)
+        neck = np.geomspace(60, 1, 200)
+        part = neck / radius
+        tension = 4 * (1 + 0.8 * part * np.log(part) - 0.2 * part)  # least, 3.2, at a neck of half of L
+        columns = {
+            "neck_radius_nm": np.concatenate([[np.nan, np.nan], neck]),
+            "followed_value": np.concatenate([[2.0, 6.0], tension]) / per_line_energy,
+        }
+        for name in ("bud_height_nm", "bending_energy_pN_nm", "line_energy_pN_nm"):
+            columns[name] = np.linspace(0, 1000, 202)
+        folds = ([6.0 - 0.01, 3.0], [6.0 - 0.04, 3.0])
+        found = [branches.Branch(columns, [fold / per_line_energy for fold in of], "here") for of in folds]
+        with mock.patch.object(juelicher1996, "followed", side_effect=found):
+            result = juelicher1996.result({}, False)
+        self.assertEqual(result.printed[0].ours[""], "6")
+        self.assertTrue(result.printed[1].ours[""].startswith("4 ± "))
+        self.assertEqual(result.rows[0]["neck_radius_nm"], "")
+
+    def test_the_flat_disc_s_limit(self):
+        """j₀₁² in a membrane without end."""
+        with mock.patch.object(juelicher1996, "RIM", 1e5), mock.patch.object(juelicher1996, "WIDTH", 1e-9):
+            self.assertAlmostEqual(juelicher1996.stability_limit(), 2.404825557695773**2, places=4)
 
     def test_plateau_and_radius_of_a_tube(self):
         length = np.array([0.0, 100.0, 200.0])
