@@ -1,6 +1,6 @@
 """`endoflow map CASE.toml --vary section.key=low:high --vary section.key=low:high [-o DIR]`: where outcomes change.
 
-A coarse grid of runs is refined only along the boundaries between outcomes (no neck, neck, bud, closed). Writes map.csv,
+A coarse grid of runs is refined only along the boundaries between outcomes (flat, dome, neck, bud, closed). Writes map.csv,
 boundaries.csv, a plot and report.html; the runs lie in DIR/runs. Exit codes: 0 done; 2 bad command line or parameter; 3 every
 run failed; 4 input or output; 130 or 143 interrupted (run it again to continue).
 """
@@ -16,6 +16,9 @@ from .options import case_parser, common_settings, output_directory, positive_in
 
 #: Settings of every run unless --set gives others: a map needs neither fields nor many shapes.
 LEAN = {"output.field_interval": "0"}
+
+#: exit_reason of a branch of stationary shapes whose neck closes.
+NECK_CLOSED = "neck-closed"
 
 
 def parsed(arguments):
@@ -38,7 +41,8 @@ def parsed(arguments):
         type=Path,
         action="append",
         default=[],
-        help="a run of `endoflow statics --continue-in` in one of the two: its folds are drawn; may be repeated",
+        help="a run of `endoflow statics --continue-in` in one of the two: its folds, and where its neck closes, are drawn; "
+        "may be repeated",
     )
     return parser.parse_args(arguments)
 
@@ -100,18 +104,18 @@ class Runs:
         for point, member in members.items():
             entry = row(member, outcomes.get(member.name))
             record = None if entry["state"] in ("failed", "not run") else read_record(member.directory)
-            found[point] = outcome_of(record, entry["neck_radius_nm"])
-            kept = ("budding_time_us", "neck_radius_nm", "exit_reason", "alarms", "directory")
+            found[point] = outcome_of(record, entry["neck_radius_nm"], entry["height_nm"])
+            kept = ("budding_time_us", "neck_radius_nm", "height_nm", "exit_reason", "alarms", "directory")
             values = {key: float(text) for key, text in member.values.items()}
             self.rows.append({**values, "outcome": found[point], **{name: entry[name] for name in kept}})
         return found
 
 
-def fold_points(directories, keys):
-    """[(x, y)] of the folds in runs of statics that were continued in one of the keys."""
+def static_points(directories, keys):
+    """{"stationary fold" or "stationary neck closes": [(x, y)]} in runs of statics that were continued in one of the keys."""
     import endoflow
 
-    found = []
+    found = {}
     for directory in directories:
         run = endoflow.load(directory)
         branch = run.record.get("notes", {}).get("branch", {})
@@ -120,8 +124,12 @@ def fold_points(directories, keys):
         other = keys[1 - keys.index(branch["parameter"])]
         section, name = other.rsplit(".", 1)
         fixed = run.parameters[section][name]
-        for fold in branch.get("folds", []):
-            found.append((fold["value"], fixed) if branch["parameter"] == keys[0] else (fixed, fold["value"]))
+        places = [("stationary fold", fold["value"]) for fold in branch.get("folds", [])]
+        if run.record.get("exit_reason") == NECK_CLOSED:
+            places.append(("stationary neck closes", branch["end"]))
+        for what, value in places:
+            point = (value, fixed) if branch["parameter"] == keys[0] else (fixed, value)
+            found.setdefault(what, []).append(point)
     return found
 
 
@@ -163,7 +171,7 @@ def run(options):
     from comparisons.studies.outcome_map import traced
 
     axes, output = ranges(options.vary), output_directory(options, "map")
-    folds = fold_points(options.folds, [key for key, *_ in axes])
+    folds = static_points(options.folds, [key for key, *_ in axes])
     units = parameter_units(program())
     with lock(output), Interruption() as interruption:
         runs = Runs(options, axes, output, interruption)

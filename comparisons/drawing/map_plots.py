@@ -4,22 +4,46 @@ from comparisons.drawing import style
 
 style.apply()
 
+import math  # noqa: E402
+
 import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
+import numpy as np  # noqa: E402
 
 from comparisons.drawing.plots import legend_on_top, save  # noqa: E402
 from comparisons.studies.outcome_map import OUTCOMES  # noqa: E402
 
 #: Marker and colour of each outcome (Okabe and Ito).
-LOOKS = dict(zip(OUTCOMES, (("o", "#999999"), ("s", "#E69F00"), ("^", "#0072B2"), ("D", "#CC79A7"), ("x", "#D55E00"))))
+LOOKS = dict(
+    zip(
+        OUTCOMES,
+        (("o", "#999999"), ("p", "#56B4E9"), ("s", "#E69F00"), ("^", "#0072B2"), ("D", "#CC79A7"), ("x", "#D55E00")),
+    )
+)
+
+#: Marker and colour of stationary shapes' own boundaries.
+STATIC = {"stationary fold": ("*", "#009E73"), "stationary neck closes": ("P", "#009E73")}
+
+#: The key that says how large a coat is: its axis shows the coat's area, too.
+COAT = "molecules.patch_radius"
 
 #: Lines of boundaries, by the second of their outcomes.
 LINE = {"linestyle": "none", "marker": ".", "markersize": 4, "color": "#222222"}
 
 
+def coat_area(radius):
+    """π r_c² in 1000 nm² of radii in nm, an array."""
+    return math.pi * np.square(radius) / 1000
+
+
+def coat_radius(area):
+    """Its inverse; areas below 0, which an axis asks for, count as 0."""
+    return np.sqrt(1000 * np.maximum(area, 0) / math.pi)
+
+
 def write_all(rows, boundary_rows, folds, keys, labels, directory):
     """Write the map into directory (Path); returns {name: title}.
 
-    rows: of map.csv, boundary_rows: of boundaries.csv; folds: [(x, y)] of stationary branches; keys, labels: of x and y.
+    rows: of map.csv, boundary_rows: of boundaries.csv; folds: {name of STATIC: [(x, y)]}; keys, labels: of x and y.
     """
     figure, axes = plt.subplots(figsize=(9.6, 6.2), layout="constrained")
     for outcome, (marker, colour) in LOOKS.items():
@@ -28,10 +52,13 @@ def write_all(rows, boundary_rows, folds, keys, labels, directory):
             places = [[row[key] for row in own] for key in keys]
             axes.plot(*places, marker, color=colour, markersize=4, label=outcome)
     axes.plot([row[keys[0]] for row in boundary_rows], [row[keys[1]] for row in boundary_rows], label="boundary", **LINE)
-    if folds:
-        axes.plot(*zip(*folds), "*", color="#009E73", markersize=11, label="stationary fold")
+    for what, points in folds.items():
+        marker, colour = STATIC[what]
+        axes.plot(*zip(*points), marker, color=colour, markeredgecolor="white", markersize=10, label=what, linestyle="none")
     axes.set_xlabel(labels[0])
     axes.set_ylabel(labels[1])
+    if keys[0] == COAT:
+        axes.secondary_xaxis("top", functions=(coat_area, coat_radius)).set_xlabel("coat’s area (1000 nm²)")
     legend_on_top(figure, *axes.get_legend_handles_labels())
     save(figure, directory, "map")
     return {"map": f"Outcomes over {keys[0]} and {keys[1]}"}

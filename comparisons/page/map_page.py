@@ -11,7 +11,7 @@ NOTE = (
 
 
 def map_html(rows, lines, folds, keys, full, drawn, directory):
-    """The page; rows: of map.csv, lines: of boundaries.csv, folds: [(x, y)], full: runs of the full grid, drawn: {plot: title}."""
+    """The page; rows: of map.csv, lines: of boundaries.csv, folds: {what: [(x, y)]}, full: runs of the full grid, drawn: {plot: title}."""
     outcomes = [row["outcome"] for row in rows]
     cards = [(name, str(outcomes.count(name)), "runs") for name in dict.fromkeys(outcomes)]
     cards.append(("Runs", str(len(rows)), f"of {full} of the full grid"))
@@ -21,8 +21,8 @@ def map_html(rows, lines, folds, keys, full, drawn, directory):
     if lines:
         sections.append(("Boundaries", NOTE + _table(lines)))
     if folds:
-        body = [("", [setting(x, 6), setting(y, 6)]) for x, y in folds]
-        sections.append(("Folds of stationary shapes", report.table([escaped(key) for key in keys], body)))
+        body = [(what, [setting(x, 6), setting(y, 6)]) for what, points in folds.items() for x, y in points]
+        sections.append(("Stationary shapes", report.table([escaped(key) for key in keys], body)))
     sections.append(("Runs", _table(rows)))
     return page("endoflow map", " and ".join(keys), f"{len(rows)} runs", found, cards, sections, directory)
 

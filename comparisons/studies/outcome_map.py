@@ -3,10 +3,15 @@
 Points are pairs of integers on the finest grid, 0 … extent of both axes.
 """
 
+import math
 from dataclasses import dataclass
 
 #: Outcomes in their order along a budding.
-OUTCOMES = ("no neck", "neck", "bud", "closed", "failed")
+OUTCOMES = ("flat", "dome", "neck", "bud", "closed", "failed")
+
+#: Height over patch radius from which on a membrane without a neck is a dome: that of a spherical cap whose edge is steeper
+#: than 45°. Caps of the area π r_c² whose edge has the slope θ are r_c sin(θ/2) high.
+DOME_HEIGHT = math.sin(math.radians(45) / 2)
 
 
 @dataclass(frozen=True)
@@ -69,12 +74,14 @@ def boundaries(cells, known):
     return {pair: sorted(points) for pair, points in found.items()}
 
 
-def outcome_of(record, neck):
-    """The outcome of a run from its run.json (a dict, or None without a run) and last neck radius (nm or None)."""
+def outcome_of(record, neck, height):
+    """The outcome of a run from its run.json (a dict, or None without a run), last neck radius and height (nm or None)."""
     if record is None or record.get("state") == "failed":
         return "failed"
     if "neck_closed" in record.get("events", {}):
         return "closed"
     if "budding" in record.get("events", {}):
         return "bud"
-    return "no neck" if neck is None else "neck"
+    if neck is not None:
+        return "neck"
+    return "dome" if (height or 0) > DOME_HEIGHT * record["parameters"]["molecules"]["patch_radius"] else "flat"

@@ -2,13 +2,18 @@
 
 import csv
 import unittest
+from pathlib import Path
+from unittest import mock
 
 import locations  # noqa: F401
 from studies import SweepTest
 
+import endoflow
+from comparisons.commands.map import static_points
 from comparisons.studies.outcome_map import Cell, boundaries, outcome_of, traced
 
-#: The membranes of the fake program have a neck from this fraction of their duration on, and one of 5 nm from that.
+#: The membranes of the fake program have a neck from this fraction of their duration on, and one of 5 nm from that. They are
+#: domes from 0.0702 on, before any end of the map below.
 NECK, BUD = 0.2375, 0.7346
 
 
@@ -45,14 +50,30 @@ class Tracing(unittest.TestCase):
         self.assertEqual(Cell(0, 0, 2).halves(), [Cell(0, 0, 1), Cell(1, 0, 1), Cell(0, 1, 1), Cell(1, 1, 1)])
 
     def test_outcomes(self):
-        for record, neck, wanted in (
-            (None, None, "failed"),
-            ({"state": "finished", "events": {}}, None, "no neck"),
-            ({"state": "finished", "events": {}}, 12.0, "neck"),
-            ({"state": "finished", "events": {"budding": {}}}, 5.0, "bud"),
-            ({"state": "finished", "events": {"budding": {}, "neck_closed": {}}}, 0.5, "closed"),
+        parameters = {"molecules": {"patch_radius": 30.0}}
+        finished = {"state": "finished", "events": {}, "parameters": parameters}
+        for record, neck, height, wanted in (
+            (None, None, None, "failed"),
+            (finished, None, None, "flat"),
+            (finished, None, 11.4, "flat"),  # 30 nm sin 22.5° = 11.48 nm
+            (finished, None, 11.5, "dome"),
+            (finished, 12.0, 40.0, "neck"),
+            ({**finished, "events": {"budding": {}}}, 5.0, 40.0, "bud"),
+            ({**finished, "events": {"budding": {}, "neck_closed": {}}}, 0.5, 40.0, "closed"),
         ):
-            self.assertEqual(outcome_of(record, neck), wanted)
+            self.assertEqual(outcome_of(record, neck, height), wanted)
+
+    def test_what_stationary_shapes_say(self):
+        """Folds and closing necks of branches, whichever of the two parameters they go along."""
+        record = {"parameter": "molecules.patch_radius", "end": 29.5, "folds": [{"value": 30.0}, {"value": 28.0}]}
+        parameters = {"molecules": {"patch_radius": 10.0}, "membrane": {"rim_tension": 0.2}}
+        run = endoflow.Run(Path("."), {"notes": {"branch": record}, "exit_reason": "neck-closed"}, parameters, {}, [])
+        keys = ["molecules.patch_radius", "membrane.rim_tension"]
+        with mock.patch.object(endoflow, "load", return_value=run):
+            found = static_points([Path("branch")], keys)
+            turned = static_points([Path("branch")], keys[::-1])
+        self.assertEqual(found, {"stationary fold": [(30.0, 0.2), (28.0, 0.2)], "stationary neck closes": [(29.5, 0.2)]})
+        self.assertEqual(turned["stationary neck closes"], [(0.2, 29.5)])
 
 
 class Map(SweepTest):
@@ -66,7 +87,7 @@ class Map(SweepTest):
         self.assertEqual((process.returncode, process.stderr), (0, ""))
         with open(self.scratch / "m/boundaries.csv", newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
-        fractions = {"no neck | neck": NECK, "neck | bud": BUD}
+        fractions = {"dome | neck": NECK, "neck | bud": BUD}
         self.assertEqual({row["between"] for row in rows}, set(fractions))
         for row in rows:
             viscosity, end = float(row["fluid.viscosity_intracellular"]), float(row["time.end"])
