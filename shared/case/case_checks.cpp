@@ -77,6 +77,11 @@ void check_loads(const Parameters& p, const Require& require) {
         "membrane.rim_tension, membrane.pole_force and fluid.pressure_difference need membrane.inextensible = true");
     require(p.fluid.dynamics == Dynamics::flow,
             "membrane.rim_tension, membrane.pole_force and fluid.pressure_difference need fluid.dynamics = \"flow\"");
+    require(
+        loads.pole_force == 0 || 3 * loads.force_width <= p.domain.radius,
+        fmt::format("membrane.pole_force_width = {:g} nm spreads the force beyond domain.radius = {:g} nm; it must be "
+                    "at most a third of it",
+                    loads.force_width, p.domain.radius));
     constexpr double first_zero = 3.8317059702075125;
     const double stiffness = BendingModel(p.membrane).stiffness(0).value;
     const double buckling = -stiffness * std::pow(first_zero / p.domain.radius, 2);
@@ -126,6 +131,9 @@ void check_exchange(const Parameters& p, const Require& require) {
     if (m.exchange == Exchange::none) return;
     require(p.domain.kind == DomainKind::box, "molecules.exchange needs domain.kind = \"box\"");
     require(!edge || m.edge_speed > 0, "molecules.exchange = \"edge\" needs molecules.edge_speed > 0");
+    require(!edge || m.transport != Transport::fickian,
+            "molecules.exchange = \"edge\" needs molecules.transport = \"cahn-hilliard\" or \"advection\": Fick's law "
+            "keeps no edge that could grow");
     require(!reservoir || m.on_rate + m.off_rate > 0,
             "molecules.exchange = \"reservoir\" needs molecules.on_rate or molecules.off_rate > 0");
     const bool sensing = m.curvature_sensing > 0;
