@@ -11,6 +11,7 @@
 
 #include "locations.h"
 #include "shared/case/case_file.h"
+#include "shared/support/console.h"
 #include "shared/support/error.h"
 
 namespace endoflow::cli {
@@ -91,6 +92,8 @@ std::optional<RunRequest> parse_run_request(int argc, char** argv, const std::st
     RunOptions options(engine);
     if (!parse(options.app, argc, argv)) return std::nullopt;
     RunRequest& request = options.request;
+    if (options.app.count("--output") > 0 && request.directory.empty())
+        throw InputError("command line: -o: no directory is named; leave the option out for the one that --help shows");
     if (options.certify) throw InputError("command line: --certify is an option of `endoflow run`");
     if (options.until) options.overrides.push_back("time.end=" + *options.until);
     request.case_file = find_case(request.case_file);
@@ -105,6 +108,7 @@ int exit_code_of_signal(int signal_number) {
 
 Outcome attempt(const std::function<int()>& body) {
     constexpr int stopped = static_cast<int>(ExitCode::solver_stopped);
+    hold_standard_streams();
     try {
         return {body(), ""};
     } catch (const Error& error) {
@@ -124,9 +128,9 @@ Outcome attempt(const std::function<int()>& body) {
 int report(const Outcome& outcome) {
     const bool told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
     const std::string reason = told ? "" : std::strerror(errno);
-    if (!outcome.error.empty()) fmt::print(stderr, "endoflow: {}\n", outcome.error);
+    if (!outcome.error.empty()) say(stderr, "endoflow: " + outcome.error + "\n");
     if (told || outcome.exit_code != 0) return outcome.exit_code;
-    fmt::print(stderr, "endoflow: standard output cannot be written: {}\n", reason);
+    say(stderr, "endoflow: standard output cannot be written: " + reason + "\n");
     return static_cast<int>(ExitCode::io);
 }
 

@@ -39,7 +39,7 @@ struct Outcome {
     std::string error;  // empty when nothing failed
 };
 
-/// Calls `body`; every exception becomes an exit code and one line of text.
+/// Calls `body`; every exception becomes an exit code and one line of text. A program does all it does in here.
 [[nodiscard]] Outcome attempt(const std::function<int()>& body);
 
 /// Prints "endoflow: message" on stderr if there is an error; returns the exit code,

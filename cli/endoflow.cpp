@@ -15,6 +15,7 @@
 #include "shared/case/case_file.h"
 #include "shared/case/resolution.h"
 #include "shared/parameters/parameter_rendering.h"
+#include "shared/support/console.h"
 #include "shared/support/error.h"
 #include "shared/support/nearest_word.h"
 #include "shared/support/version.h"
@@ -115,7 +116,7 @@ int check(int argc, char** argv) {
     else
         fmt::print("{}: valid (case '{}')\n", file, parameters.case_.name);
     for (const auto& [engine, what, remedy] : foreseen_inaccuracies(parameters))
-        fmt::print(stderr, "warning: {}: {}; {}\n", engine, what, remedy);
+        say(stderr, fmt::format("warning: {}: {}; {}\n", engine, what, remedy));
     return 0;
 }
 

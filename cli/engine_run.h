@@ -6,6 +6,7 @@
 
 #include "command_line.h"
 #include "shared/output/run_output.h"
+#include "shared/support/console.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
 
@@ -16,8 +17,8 @@ namespace endoflow::cli {
 template <class Simulation>
 [[nodiscard]] int run_to_the_end(RunOutput& output, const Simulation& simulate) {
     if (output.nothing_to_do()) {
-        fmt::print("already at t = {:.6g} µs, nothing to do; results in {}\n", output.reached_us(),
-                   output.directory().string());
+        say(stdout, fmt::format("already at t = {:.6g} µs, nothing to do; results in {}\n", output.reached_us(),
+                                one_line(output.directory().string())));
         return 0;
     }
     try {

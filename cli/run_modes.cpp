@@ -10,6 +10,7 @@
 #include "command_line.h"
 #include "launcher.h"
 #include "process.h"
+#include "shared/support/console.h"
 #include "shared/support/error.h"
 
 namespace endoflow::cli {
@@ -48,13 +49,9 @@ int run(int argc, char** argv) {
     if (request.directory.empty()) request.directory = request.run / "modes";
     require_one_process("endoflow modes", "");
     openblas_set_num_threads(1);  // the layers' own threads share the work
-    boundary_integral::write_modes(request, [](const std::string& line) {
-        fmt::print("{}\n", line);
-        std::fflush(stdout);
-    });
-    fmt::print("results in {}\n", request.directory.string());
+    boundary_integral::write_modes(request, [](const std::string& line) { say(stdout, line + "\n"); });
+    say(stdout, fmt::format("results in {}\n", request.directory.string()));
     if (tables_only) return 0;
-    std::fflush(stdout);
     become_python("comparisons", {"modes", request.directory.string()});
 }
 

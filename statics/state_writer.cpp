@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "shared/geometry/observables.h"
+#include "shared/support/console.h"
 
 namespace endoflow::statics {
 
@@ -41,7 +42,8 @@ double number_of(const Parameters& parameters, const std::string& key) {
 }
 
 void print_figures(const Json& figures) {
-    for (const auto& [name, value] : figures.items()) fmt::print("  {:<28} {:.9g}\n", name, value.get<double>());
+    for (const auto& [name, value] : figures.items())
+        say(stdout, fmt::format("  {:<28} {:.9g}\n", name, value.get<double>()));
 }
 
 Json describe_folds(const std::vector<Fold>& folds, const std::string& key) {
@@ -60,8 +62,10 @@ void describe_branch(const StateWriter& writer, const std::string& key, double b
                                     {"ended_because", ended_because},
                                     {"points", writer.count()},
                                     {"folds", describe_folds(branch.folds, key)}});
-    for (const Fold& fold : branch.folds) fmt::print("fold at {} = {:.9g} {}\n", key, fold.parameter(), unit);
-    fmt::print("branch in {}: {} points, {} at {:.9g} {}\n", key, writer.count(), ended_because, end, unit);
+    for (const Fold& fold : branch.folds)
+        say(stdout, fmt::format("fold at {} = {:.9g} {}\n", key, fold.parameter(), unit));
+    say(stdout,
+        fmt::format("branch in {}: {} points, {} at {:.9g} {}\n", key, writer.count(), ended_because, end, unit));
 }
 
 }  // namespace endoflow::statics

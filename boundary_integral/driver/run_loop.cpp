@@ -38,22 +38,32 @@ class RunLoop {
     ExitReason execute() {
         if (!output_.restart_point()) begin();
         begin_section();
+        ExitReason reason = ExitReason::interrupted;
+        try {
+            reason = advance_to_an_end();
+        } catch (const Interrupted&) {
+            output_.log_info("a step was given up");
+        }
+        return stop(reason);
+    }
+
+  private:
+    ExitReason advance_to_an_end() {
         while (integrator_.time() < parameters_.time.end) {
             if (integrator_.statistics().steps == next_start_) start_anew();
-            if (interruption_signal() != 0) return stop(ExitReason::interrupted);
+            if (interruption_signal() != 0) return ExitReason::interrupted;
             if (output_.checkpoint_due()) output_.write_checkpoint(resume_);
             advance();
             const Evaluation accepted = dynamics_.evaluate(integrator_.state(), operators_);
             flow_.add(integrator_.time(), accepted);
-            if (const auto reason = events_.look(integrator_, history_, series_)) return stop(*reason);
+            if (const auto reason = events_.look(integrator_, history_, series_)) return *reason;
             series_.write_until(integrator_.time(), integrator_);
             history_.record(integrator_.time(), accepted, integrator_);
         }
         series_.write_shape_at(integrator_.time(), integrator_);
-        return stop(ExitReason::done);
+        return ExitReason::done;
     }
 
-  private:
     const Parameters& parameters_;
     RunOutput& output_;
     MembraneDynamics dynamics_;
@@ -119,8 +129,12 @@ class RunLoop {
 
     StiffProblem problem() {
         StiffProblem problem;
-        problem.begin_step = [this](const Eigen::VectorXd& predicted) { make_operators(predicted); };
+        problem.begin_step = [this](const Eigen::VectorXd& predicted) {
+            give_up_if_interrupted();
+            make_operators(predicted);
+        };
         problem.rate = [this](const Eigen::VectorXd& y) {
+            give_up_if_interrupted();
             const PhaseTimer timer(output_, "rates");
             latest_ = dynamics_.evaluate(y, operators_);
             return latest_.rate;
@@ -142,6 +156,7 @@ class RunLoop {
         for (; rejected_ < rejected; ++rejected_) output_.count_rejected_step();
     }
 
+    /// What the run leaves behind, however far it got within a step.
     ExitReason stop(ExitReason reason) {
         output_.write_checkpoint(resume_);
         const auto& statistics = integrator_.statistics();

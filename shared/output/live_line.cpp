@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "shared/support/console.h"
+
 namespace endoflow {
 
 namespace {
@@ -46,17 +48,15 @@ void LiveLine::update(const HistoryRow& row) {
     const std::string line =
         live_text(row, end_time_us_, done < least_progress_to_extrapolate ? NAN : elapsed * (1 - done) / done);
     if (terminal_)
-        fmt::print(stream_, "\r\x1b[K{}", line);
+        say(stream_, "\r\x1b[K" + clipped(line, terminal_columns(stream_) - 1));
     else
-        fmt::print(stream_, "{}\n", line);
+        say(stream_, line + "\n");
     open_ = terminal_;
-    std::fflush(stream_);
 }
 
 void LiveLine::finish() {
-    if (open_) fmt::print(stream_, "\n");
+    if (open_) say(stream_, "\n");
     open_ = false;
-    std::fflush(stream_);
 }
 
 }  // namespace endoflow

@@ -17,6 +17,7 @@
 #include "shared/output/run_directory.h"
 #include "shared/output/run_lock.h"
 #include "shared/output/shapes_file.h"
+#include "shared/support/console.h"
 #include "shared/support/error.h"
 
 namespace endoflow {
@@ -168,7 +169,7 @@ struct RunOutput::Implementation {
     void warn(const std::string& message) {
         log->warn(message);
         live_line->finish();
-        fmt::print(stderr, "warning: {}\n", message);
+        say(stderr, "warning: " + message + "\n");
     }
 
     void raise(const Alarm& alarm) {
@@ -208,9 +209,8 @@ struct RunOutput::Implementation {
         const std::string when = engine.row_order == RowOrder::in_time
                                      ? fmt::format(" at t = {:.6g} µs", record["time_us"].get<double>())
                                      : "";
-        fmt::print("{}{}; results in {}{}\n", how, when, directory.root.string(),
-                   engine.row_order == RowOrder::in_time ? "; continue with --restart" : "");
-        std::fflush(stdout);
+        say(stdout, fmt::format("{}{}; results in {}{}\n", how, when, one_line(directory.root.string()),
+                                engine.row_order == RowOrder::in_time ? "; continue with --restart" : ""));
     }
 
     void end(const std::string& state, const std::string& reason) {
@@ -302,7 +302,7 @@ void RunOutput::record_event(const std::string& name, double time_us, const std:
     for (const auto& [key, value] : values) event[key] = value;
     self.record["events"][name] = event;
     self.live_line->finish();
-    fmt::print("{} at t = {:.6g} µs\n", name, time_us);
+    say(stdout, fmt::format("{} at t = {:.6g} µs\n", name, time_us));
     log_info(fmt::format("{} at t = {:.9g} µs", name, time_us));
     self.save_record();
 }
@@ -368,11 +368,10 @@ void RunOutput::leave_interrupted() {
     if (self.role == OutputRole::observer) return;
     const std::lock_guard<std::mutex> guard(self.saving);
     if (!self.words_if_interrupted.empty()) write_file_atomically(self.directory.record(), self.words_if_interrupted);
-    fmt::print("\ninterrupted within a step, {}; results in {}\n",
-               self.words_if_interrupted.empty() ? "before the first checkpoint"
-                                                 : "continue from the last checkpoint with --restart",
-               self.directory.root.string());
-    std::fflush(stdout);
+    say(stdout, fmt::format("\ninterrupted within a step, {}; results in {}\n",
+                            self.words_if_interrupted.empty() ? "before the first checkpoint"
+                                                              : "continue from the last checkpoint with --restart",
+                            one_line(self.directory.root.string())));
 }
 
 void RunOutput::finish_with_error(const std::string& message) {
