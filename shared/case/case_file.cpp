@@ -148,6 +148,7 @@ std::string read_text(const std::filesystem::path& file) {
             throw InputError(fmt::format("{}: larger than {} bytes; a case file is a short TOML text", file.string(),
                                          largest_case_file));
     }
+    if (stream.bad()) throw IoError(file.string() + ": the case file cannot be read to its end");
     return text;
 }
 

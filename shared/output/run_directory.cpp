@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "shared/support/error.h"
 
 namespace endoflow {
@@ -24,6 +27,10 @@ fs::path unused_number(const fs::path& directory) {
         if (auto candidate = directory / std::to_string(number); !fs::exists(candidate)) return candidate;
 }
 
+bool holds_something(const fs::path& item) {
+    return fs::exists(fs::symlink_status(item)) && !(fs::is_directory(item) && fs::is_empty(item));
+}
+
 }  // namespace
 
 void RunDirectory::make_root() const {
@@ -31,13 +38,15 @@ void RunDirectory::make_root() const {
 }
 
 void RunDirectory::prepare_fresh() const {
-    if (fs::exists(record())) {
+    // Without run.json they are somebody's own, or of a start that was killed; what is there is never written over.
+    const std::vector<fs::path> own{history(), shapes(), log(), checkpoint(), fields(), field_index(), record()};
+    if (std::any_of(own.begin(), own.end(), holds_something)) {
         const auto destination = unused_number(earlier());
         make_directory(destination);
         auto items = drawings();
-        items.insert(items.end(), {history(), shapes(), log(), checkpoint(), fields(), field_index(), record()});
+        items.insert(items.end(), own.begin(), own.end());
         for (const auto& item : items) {
-            if (!fs::exists(item)) continue;
+            if (!holds_something(item)) continue;
             std::error_code failure;
             fs::rename(item, destination / item.filename(), failure);
             if (failure)

@@ -55,6 +55,14 @@ class CommandLine(unittest.TestCase):
         self.assert_refused(endoflow("params", "--toml", "--markdown"), 2)
         self.assert_refused(endoflow("check"), 2, "CASE")
 
+    def test_case_that_cannot_be_read_to_its_end(self):
+        """A read error is not the end of the file: the keys behind it would silently have their defaults."""
+        self.assert_refused(endoflow("check", "/proc/self/mem"), 4, "/proc/self/mem", "cannot be read")
+
+    def test_directory_without_a_name(self):
+        """As of a variable of a script that is not set."""
+        self.assert_refused(endoflow("run", "boundary-integral", self.case(""), "-o", ""), 2, "-o", "no directory")
+
     def test_bad_case_writes_nothing(self):
         output = self.root / "run"
         for text, words in (("[time]\nned = 1\n", ("case.toml:2:1", "time.end")),

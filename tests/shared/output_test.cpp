@@ -13,6 +13,7 @@
 #include "shared/output/output_times.h"
 #include "shared/output/run_output.h"
 #include "shared/output/shapes_file.h"
+#include "shared/support/console.h"
 #include "shared/support/error.h"
 #include "temporary_directory.h"
 
@@ -173,6 +174,15 @@ TEST_CASE("a run's directory: record, events, restart, and an earlier run that i
     CHECK_THROWS_AS(RunOutput(parameters, other, root / "earlier/1", StartMode::restart), IoError);
 }
 
+TEST_CASE("files that stand in a new run's directory are not written over") {
+    const TemporaryDirectory directory;
+    std::ofstream(directory.path() / "log.txt") << "of somebody else";
+    std::filesystem::create_directory(directory.path() / "checkpoint");  // of a start that was killed: nothing to keep
+    RunOutput(Parameters{}, test_engine(), directory.path(), StartMode::fresh).finish(ExitReason::done);
+    CHECK(content(directory.path() / "earlier/1/log.txt") == "of somebody else");
+    CHECK(!std::filesystem::exists(directory.path() / "earlier/1/checkpoint"));
+}
+
 TEST_CASE("a directory that cannot be made is one clear error") {
     const TemporaryDirectory directory;
     std::ofstream(directory.path() / "file") << "x";
@@ -200,6 +210,13 @@ TEST_CASE("the live line fits a terminal of 80 columns, and mu is one of them") 
     const std::string line = live_text(row, 123.45678, 35999);
     CHECK(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; }) < 80);
     CHECK_THAT(line, Contains("neck 12.35 nm") && Contains("left 9:59:59"));
+}
+
+TEST_CASE("a narrower terminal gets the beginning of the live line, cut between characters") {
+    CHECK(clipped("t 1 µs", 5) == "t 1 µ");
+    CHECK(clipped("t 1 µs", 4) == "t 1 ");
+    CHECK(clipped("t 1 µs", 6) == "t 1 µs");
+    CHECK(clipped("t 1 µs", 0) == "t 1 µs");
 }
 
 TEST_CASE("shapes are due early, then at multiples, at the same times whatever the steps were") {
