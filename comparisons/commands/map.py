@@ -12,7 +12,7 @@ from comparisons.errors import BAD_INPUT, RUN_FAILED, StudyError
 from comparisons.files import write_text
 from comparisons.studies.study import lock, program, run_members
 
-from .options import case_parser, common_settings, output_directory, positive_integer
+from .options import case_parser, common_settings, output_directory, positive_integer, require_apart
 
 #: Settings of every run unless --set gives others: a map needs neither fields nor many shapes.
 LEAN = {"output.field_interval": "0"}
@@ -171,6 +171,7 @@ def run(options):
     from comparisons.studies.outcome_map import traced
 
     axes, output = ranges(options.vary), output_directory(options, "map")
+    require_apart(options, [key for key, *_ in axes])
     folds = static_points(options.folds, [key for key, *_ in axes])
     units = parameter_units(program())
     with lock(output), Interruption() as interruption:

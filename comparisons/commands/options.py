@@ -5,6 +5,8 @@ import json
 import sys
 from pathlib import Path
 
+from comparisons.errors import BAD_INPUT, StudyError
+
 
 class Parser(argparse.ArgumentParser):
     """A command's parser; `--describe` alone prints its options as JSON, as the other commands do."""
@@ -13,6 +15,8 @@ class Parser(argparse.ArgumentParser):
         if args is not None and list(args) == ["--describe"]:
             print(json.dumps(self.described()))
             sys.exit(0)
+        if any(word == "" or (word.startswith("--") and word.endswith("=")) for word in args or ()):
+            self.error("an argument is empty; is a variable of the shell not set?")
         return super().parse_args(args, namespace)
 
     def described(self):
@@ -78,6 +82,14 @@ def case_parser(study, description):
 def common_settings(options):
     """The settings of every member, in the order in which they override the case file."""
     return [*options.set, *([f"time.end={options.until}"] if options.until else [])]
+
+
+def require_apart(options, varied):
+    """Raises StudyError when --set or --until names one of the varied keys: which of both should hold?"""
+    given = [setting.partition("=")[0] for setting in common_settings(options)]
+    for key in varied:
+        if key in given:
+            raise StudyError(f"--vary {key}: --set or --until gives it a value, too; leave one out", BAD_INPUT)
 
 
 def output_directory(options, study):

@@ -11,7 +11,7 @@ from comparisons.errors import RUN_FAILED
 from comparisons.files import write_text
 from comparisons.studies.study import lock, program, report_failures, run_members
 
-from .options import case_parser, common_settings, output_directory
+from .options import case_parser, common_settings, output_directory, require_apart
 
 
 def parsed(arguments):
@@ -40,7 +40,9 @@ def sweep_members(options, output):
 
     engines = ENGINES if options.engine == "both" else (options.engine,)
     members = []
-    for values in combinations([parsed_variation(text) for text in options.vary]):
+    variations = [parsed_variation(text) for text in options.vary]
+    require_apart(options, [key for key, _ in variations])
+    for values in combinations(variations):
         settings = (*common_settings(options), *(f"{key}={value}" for key, value in values.items()))
         parameters = resolved_parameters(program(), options.case, settings)
         for engine in engines:

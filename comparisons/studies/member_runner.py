@@ -49,13 +49,16 @@ class Running:
 
 
 class Interruption:
-    """Counts SIGINT and SIGTERM while it is the context; `signal` is the first one's number, 0 without any."""
+    """Counts SIGINT, SIGTERM and SIGHUP while it is the context; `signal` is the first one's number, 0 without any.
+
+    Members are in sessions of their own: a terminal that is closed would leave them running behind a study that is gone.
+    """
 
     def __init__(self):
         self.signal, self.count = 0, 0
 
     def __enter__(self):
-        self._before = {number: signal.signal(number, self._note) for number in (signal.SIGINT, signal.SIGTERM)}
+        self._before = {number: signal.signal(number, self._note) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
         return self
 
     def __exit__(self, *_):

@@ -8,6 +8,7 @@ from urllib.parse import quote
 
 from comparisons.errors import StudyError, last_line
 from comparisons.measures.metrics import flat_parameters
+from endoflow.run_directory import damage_of
 
 ENGINES = ("boundary-integral", "phase-field")
 
@@ -76,12 +77,13 @@ def directory_name(values):
 
 
 def read_record(directory):
-    """run.json of a directory as a dict, or None when there is no readable one."""
+    """run.json of a directory as a dict, or None when there is no whole one."""
     try:
         record = json.loads((directory / "run.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    return record if isinstance(record, dict) and isinstance(record.get("parameters"), dict) else None
+    whole = isinstance(record, dict) and isinstance(record.get("parameters"), dict) and damage_of(record) is None
+    return record if whole else None
 
 
 def work_left(member):

@@ -1,9 +1,10 @@
 """Values of varied parameters: `section.key=start:stop:step` or `section.key=value,value,...`."""
 
 import itertools
+import math
 from decimal import Decimal, InvalidOperation
 
-#: Most values of one parameter: more is a slip of the keyboard.
+#: Most values of one parameter, and most combinations of all: more is a slip of the keyboard.
 MOST_VALUES = 10000
 
 
@@ -51,11 +52,11 @@ def _range(text, where):
     if len(parts) != 3 or any(as_number(part) is None for part in parts):
         raise RangeError(f"{where}: a range reads start:stop:step, three numbers")
     start, stop, step = map(Decimal, parts)
-    if step == 0 or (stop - start) * step < 0:
+    if step == 0 or (stop > start) == (step < 0) and stop != start:
         raise RangeError(f"{where}: a step of {parts[2]} does not lead from {parts[0]} to {parts[1]}")
+    if abs(stop - start) >= MOST_VALUES * abs(step):
+        raise RangeError(f"{where}: more than {MOST_VALUES} values")
     count = int((stop - start) / step) + 1
-    if count > MOST_VALUES:
-        raise RangeError(f"{where}: {count} values; at most {MOST_VALUES} are allowed")
     return [f"{float(start + i * step):.12g}" for i in range(count)]
 
 
@@ -64,4 +65,7 @@ def combinations(variations):
     keys = [key for key, _ in variations]
     if len(set(keys)) < len(keys):
         raise RangeError(f"--vary {next(key for key in keys if keys.count(key) > 1)}: a parameter can be varied once")
+    count = math.prod(len(values) for _, values in variations)
+    if count > MOST_VALUES:
+        raise RangeError(f"--vary: {count} combinations; at most {MOST_VALUES} are allowed")
     return [dict(zip(keys, chosen)) for chosen in itertools.product(*(values for _, values in variations))]

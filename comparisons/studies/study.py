@@ -3,6 +3,7 @@
 import contextlib
 import fcntl
 import os
+import shutil
 import sys
 from pathlib import Path
 
@@ -19,7 +20,8 @@ def program():
 
 @contextlib.contextmanager
 def lock(directory):
-    """Make the directory (Path) and keep other studies out of it."""
+    """Make the directory (Path) and keep other studies out of it; a study that is refused leaves none behind."""
+    new = not directory.exists()
     directory.mkdir(parents=True, exist_ok=True)
     with open(directory / ".lock", "w", encoding="utf-8") as file:
         try:
@@ -27,7 +29,11 @@ def lock(directory):
         except OSError:
             message = f"{directory}: another study is at work here; wait, or choose another -o"
             raise StudyError(message, IO_FAILURE) from None
-        yield
+        try:
+            yield
+        finally:
+            if new and [entry.name for entry in directory.iterdir()] == [".lock"]:
+                shutil.rmtree(directory)
 
 
 def run_members(members, options, interruption):

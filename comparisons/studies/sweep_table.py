@@ -14,6 +14,7 @@ import numpy as np
 
 from comparisons.files import named
 from comparisons.studies.members import covers, differing_parameters, read_record
+from comparisons.studies.ranges import as_number
 from endoflow import EndoflowError
 from endoflow.alarms import alarms_of
 from endoflow.history import read_history
@@ -90,7 +91,8 @@ def write_table(path, rows):
 
 
 def cell(value):
-    """A value as text: numbers with 12 digits, None as nothing."""
+    """A value as text: numbers with 12 digits, None as nothing, an apostrophe before what spreadsheets would compute."""
     if value is None:
         return ""
-    return f"{value:.12g}" if isinstance(value, float) else str(value)
+    text = f"{value:.12g}" if isinstance(value, float) else str(value)
+    return f"'{text}" if text.startswith(("=", "+", "-", "@")) and as_number(text) is None else text

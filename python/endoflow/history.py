@@ -46,8 +46,8 @@ def read_history(path: Path) -> dict[str, Array]:
     Raises RunDirectoryError when the file is missing, lacks a column, has a malformed row, or when time runs backwards.
     """
     try:
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = [row for row in csv.reader(file) if row]
+        text = path.read_bytes().decode("utf-8")
+        rows = [row for row in csv.reader(text.splitlines(keepends=True)) if row]
     except FileNotFoundError:
         raise RunDirectoryError(path, "the file is missing", RERUN) from None
     except (OSError, UnicodeDecodeError, csv.Error) as error:
@@ -61,6 +61,8 @@ def read_history(path: Path) -> dict[str, Array]:
             path, f"lacks the column(s) {', '.join(missing)}", "is this a directory of `endoflow run`?"
         )
     table = np.array([_parse_row(path, number, row, header) for number, row in enumerate(rows[1:], start=2)])
+    if not text.endswith("\n"):  # its last number may be cut short and look like one
+        raise RunDirectoryError(path, f"line {len(rows)} is torn", RERUN)
     history = {name: table[:, column] for column, name in enumerate(header)}
     if not (np.diff(history["time_us"]) >= 0).all():  # also catches nan
         raise RunDirectoryError(path, "time_us does not increase from row to row", RERUN)

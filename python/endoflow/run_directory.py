@@ -140,9 +140,30 @@ def _read_record(path: Path) -> dict[str, Any]:
     for key, kind in (("engine", str), ("parameters", dict), ("provenance", dict), ("events", dict)):
         if not isinstance(record.get(key), kind):
             raise RunDirectoryError(path, f"has no `{key}`", "is this a directory of `endoflow run`?")
-    for name, event in record["events"].items():
-        if not isinstance(event, dict) or not isinstance(event.get("time_us"), (int, float)):
-            raise RunDirectoryError(path, f"event `{name}` has no `time_us`", RERUN)
-    if not all(map(is_alarm, record.get("alarms") or [])):
-        raise RunDirectoryError(path, "an entry of `alarms` lacks name, time_us, value or bound", RERUN)
+    damage = damage_of(record)
+    if damage:
+        raise RunDirectoryError(path, damage, RERUN)
     return record
+
+
+def damage_of(record):
+    """What is wrong with the times, events and alarms of a run.json (dict), as text; None when all is well."""
+    if not _is_number(record["parameters"].get("time", {}), "end"):
+        return "has no `parameters.time.end`"
+    if record.get("time_us") is not None and not _is_number(record, "time_us"):
+        return "`time_us` is not a number"
+    events, alarms = record.get("events", {}), record.get("alarms") or []
+    if not isinstance(events, dict):
+        return "`events` is not an object"
+    for name, event in events.items():
+        if not _is_number(event, "time_us"):
+            return f"event `{name}` has no `time_us`"
+    if not isinstance(alarms, list) or not all(map(is_alarm, alarms)):
+        return "an entry of `alarms` lacks name, time_us, value or bound"
+    return None
+
+
+def _is_number(entry, key):
+    """Whether something read from JSON is an object with a number under this key."""
+    value = entry.get(key) if isinstance(entry, dict) else None
+    return isinstance(value, (int, float)) and not isinstance(value, bool)

@@ -67,8 +67,8 @@ def read_shapes(path: Path) -> list[Shape]:
             if "shapes" not in file:
                 raise RunDirectoryError(path, "has no group /shapes", "is this a file of `endoflow run`?")
             shapes = [_read_shape(path, group) for group in file["shapes"].values()]
-    except (OSError, RuntimeError) as error:
-        reason = str(error).splitlines()[0]
+    except (OSError, RuntimeError, KeyError, ValueError, TypeError) as error:  # h5py's names for damage
+        reason = str(error).strip("'\"").splitlines()[0]
         raise RunDirectoryError(
             path, f"cannot be read as HDF5 ({reason})", f"wait until the run has ended, or {RERUN}"
         ) from None

@@ -13,6 +13,7 @@ import synthetic
 from comparisons.studies.member_runner import shares
 from comparisons.studies.members import CONTINUE, FINISHED, FRESH, Member, directory_name, run_command, work_left
 from comparisons.studies.progress import duration, remaining
+from comparisons.studies.sweep_table import row
 from studies import StudyTest
 
 
@@ -70,6 +71,16 @@ class Work(unittest.TestCase):
         self.assertEqual(self.left("interrupted", time=0.7, time__end=0.5), FINISHED)
         self.assertEqual(self.left("interrupted", None, time=0.4, time__end=0.5), CONTINUE)
         self.assertEqual(self.left(time__end=0.5, engine="boundary-integral"), FRESH)
+
+    def test_damaged_record(self):
+        """It counts as none: the run is made anew, and what is there is kept by the program."""
+        for damage in ({"time_us": "x"}, {"events": []}, {"alarms": 1}, {"parameters": {}}):
+            with self.subTest(damage):
+                self.left()
+                record = json.loads((self.directory / "run.json").read_text())
+                (self.directory / "run.json").write_text(json.dumps({**record, **damage}))
+                member = Member("m", "c", self.directory, "phase-field", (), {}, synthetic.parameters())
+                self.assertEqual((work_left(member), row(member)["state"]), (FRESH, "not run"))
 
     def test_no_run(self):
         self.assertEqual(work_left(Member("m", "c", self.directory / "no", "phase-field", (), {}, {})), FRESH)

@@ -24,7 +24,7 @@ class Ranges(unittest.TestCase):
         self.assertEqual(self.values("fickian,advection"), ["fickian", "advection"])
 
     def test_refused(self):
-        for text in ("1:2", "1:2:0", "1:2:-1", "2:1:1", "a:b:c", "0:1:1e-9", "1,,2", "", "1,1.0", "nan:1:1", "1:inf:1"):
+        for text in ("1:2", "1:2:0", "1:2:-1", "2:1:1", "a:b:c", "0:1:1e-9", "1,,2", "", "1,1.0", "0:1:1e-999999", "nan:1:1", "1:inf:1"):
             with self.subTest(text), self.assertRaises(RangeError):
                 self.values(text)
 
@@ -37,6 +37,8 @@ class Ranges(unittest.TestCase):
     def test_combinations(self):
         found = combinations([("a.x", ["1", "2"]), ("a.y", ["p", "q"])])
         self.assertEqual([tuple(entry.values()) for entry in found], [("1", "p"), ("1", "q"), ("2", "p"), ("2", "q")])
+        with self.assertRaisesRegex(RangeError, "100000000 combinations"):
+            combinations([(f"a.{key}", ["1"] * 100) for key in "wxyz"])
         with self.assertRaisesRegex(RangeError, "a.x: a parameter can be varied once"):
             combinations([("a.x", ["1"]), ("a.x", ["2"])])
 

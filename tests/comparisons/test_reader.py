@@ -227,6 +227,29 @@ class DamagedRun(unittest.TestCase):
         self.edit_history(lambda text: text[:-40])
         self.assert_refused(r"history.csv: line 202 has \d+ cells where the header has 11")
 
+    def test_history_whose_last_number_is_cut(self):
+        """All cells are there, and the last one is a number, but not the one that was computed."""
+        self.edit_history(lambda text: text.rstrip()[:-1])
+        self.assert_refused("history.csv: line 202 is torn")
+
+    def test_record_with_parts_of_another_kind(self):
+        whole = json.loads((self.run_ / "run.json").read_text())
+        for key, value in (("alarms", 1), ("alarms", [{}]), ("events", []), ("time_us", "x"), ("parameters", {"time": {}})):
+            with self.subTest(f"{key} = {value}"):
+                (self.run_ / "run.json").write_text(json.dumps({**whole, key: value}))
+                self.assert_refused(key)
+
+    def test_damage_within_shapes(self):
+        """Every byte of the file's structure in turn: one line, whatever the library calls what it meets."""
+        path = self.run_ / "shapes.h5"
+        whole = path.read_bytes()
+        for at in range(0, len(whole), len(whole) // 97):
+            path.write_bytes(whole[:at] + b"\xff\x00\xa5" + whole[at:])
+            try:
+                endoflow.load(self.run_)
+            except endoflow.RunDirectoryError as error:
+                self.assertNotIn("\n", str(error))
+
     def test_history_with_a_word(self):
         self.edit_history(lambda text: text.replace("0.005,", "oops,", 1))
         self.assert_refused("history.csv: line 2: .*oops")

@@ -67,19 +67,32 @@ class Resuming(SweepTest):
     def test_interruption_stops_members_and_is_continued(self):
         vary = ("--vary", "molecules.patch_radius=20,30,40", *BOUNDARY_INTEGRAL, "--jobs", "1", "-o", "s")
         process = self.start("sweep", "case.toml", *vary, "--set", "case.name=slow")
-        ready = self.scratch / "s/patch_radius=20/boundary-integral/ready"
-        deadline = time.monotonic() + 120
-        while not ready.exists() and time.monotonic() < deadline:
-            time.sleep(0.02)
+        self.wait_for(self.scratch / "s/patch_radius=20/boundary-integral/ready")
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=1200)
-        self.assertEqual(
-            (process.returncode, errors), (130, "endoflow sweep: interrupted; the same command continues\n")
-        )
+        self.assert_interrupted(process, 130)
         self.assertEqual([row["state"] for row in self.rows("s")], ["interrupted", "not run", "not run"])
         self.runs()
         self.assertEqual(self.sweep(*vary).returncode, 0)
         self.assertEqual([line.split()[1] for line in self.runs()], ["restart", "fresh", "fresh"])
+
+    def test_closed_terminal_stops_members(self):
+        """SIGHUP: no member goes on running behind a sweep that is gone."""
+        process = self.start("sweep", "case.toml", "--vary", "molecules.patch_radius=20", *BOUNDARY_INTEGRAL, "-o", "s",
+                             "--set", "case.name=slow")
+        self.wait_for(self.scratch / "s/patch_radius=20/boundary-integral/ready")
+        process.send_signal(signal.SIGHUP)
+        self.assert_interrupted(process, 129)
+        self.assertEqual([row["state"] for row in self.rows("s")], ["interrupted"])
+
+    def assert_interrupted(self, process, code):
+        _, errors = process.communicate(timeout=1200)
+        told = "endoflow sweep: interrupted; the same command continues\n"
+        self.assertEqual((process.returncode, errors), (code, told))
+
+    def wait_for(self, file):
+        deadline = time.monotonic() + 120
+        while not file.exists() and time.monotonic() < deadline:
+            time.sleep(0.02)
 
     def test_collect_runs_nothing(self):
         self.sweep("--vary", "molecules.patch_radius=20", *BOUNDARY_INTEGRAL, "-o", "s")

@@ -7,6 +7,7 @@ from browser import Browser, chromium
 from studies import BOUNDARY_INTEGRAL, PATCHES, SweepTest
 
 from comparisons.drawing import sweep_plots
+from comparisons.studies.sweep_table import cell
 
 
 class Sweep(SweepTest):
@@ -32,6 +33,25 @@ class Sweep(SweepTest):
         self.assertEqual(len(self.rows("s")), 8)
         self.assertIn("s/patch_radius=30/transport=fickian/phase-field fresh", self.runs())
         self.assertTrue((self.scratch / "s/sweep.svg").exists())
+
+    def test_a_parameter_with_two_values(self):
+        for option, value, key in (("--set", "time.tolerance=1e-3", "time.tolerance"), ("--until", "1", "time.end")):
+            process = self.sweep("--vary", f"{key}=1e-2,1e-1", *BOUNDARY_INTEGRAL, option, value)
+            self.assert_one_line(process, 2, f"--vary {key}: --set or --until gives it a value, too")
+        self.assertEqual(self.runs(), [])
+
+    def test_empty_argument(self):
+        """As of a shell's variable that is not set: the table would land in the present directory."""
+        process = self.sweep("--vary", PATCHES, *BOUNDARY_INTEGRAL, "-o", "")
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("an argument is empty", process.stderr)
+        self.assertFalse((self.scratch / "sweep.csv").exists())
+
+    def test_table_is_no_program(self):
+        """Spreadsheets compute cells that begin like a formula; numbers stay numbers."""
+        texts = {"=1+1": "'=1+1", "@x": "'@x", "-rm": "'-rm", "-5": "-5", "+1e3": "+1e3", "a=b": "a=b"}
+        self.assertEqual({text: cell(text) for text in texts}, texts)
+        self.assertEqual(cell(-0.5), "-0.5")
 
     def test_axes_have_units_and_ticks_without_round_off(self):
         """Runs that stop at budding end with a neck of 5 nm to round-off."""
