@@ -2,17 +2,20 @@
 
     python3 tests/reliability/kill_and_restart.py build/endoflow --kills 50
     python3 tests/reliability/kill_and_restart.py build/endoflow --engine phase-field --kills 20 --until 0.01
+    python3 tests/reliability/kill_and_restart.py build/endoflow --engine phase-field --kills 20 --signal INT
 
 One uninterrupted run is the reference. Then a run in another directory is killed and restarted until it reaches its end,
 again and again until the number of kills is reached; each time history.csv and shapes.h5 must hold the reference's rows and
 shapes, none missing, none twice, none torn. Checkpoints are written after every step, so that many kills hit a file that
-is being written. Ends with 1 and says what differs when something was lost.
+is being written. With --signal, runs are asked to stop instead, anywhere within a step. Ends with 1 and says what differs
+when something was lost.
 """
 
 import argparse
 import contextlib
 import os
 import random
+import signal
 import subprocess
 import sys
 import tempfile
@@ -172,6 +175,17 @@ def finish(process, what):
         raise Lost(f"{what} ended with {process.returncode}: {errors.strip()}")
 
 
+def stop(process, number):
+    """Send the signal; False when the run had just reached its end. A program that does not listen yet ends as by any signal."""
+    process.send_signal(number)
+    _, errors = process.communicate()
+    if process.returncode == 0:
+        return False
+    if process.returncode not in (-number, 128 + number) or (errors and process.returncode > 0):
+        raise Lost(f"{number.name} ended a run with {process.returncode}: {errors.strip()}")
+    return True
+
+
 class Statistics:
     kills = rounds = early_kills = damaged_shapes = 0
     duration = 0.0  # s, of the fastest whole run so far: the machine may have become quicker than for the reference
@@ -212,8 +226,8 @@ def one_round(options, directory, generator, statistics):
         try:
             process.wait(timeout=generator.uniform(0, 0.6 * statistics.duration))
         except subprocess.TimeoutExpired:
-            process.kill()
-            process.communicate()
+            if not stop(process, options.signal):
+                return None
             statistics.kills += 1
             early = last_checkpoint(directory) == last
             statistics.early_kills += early
@@ -261,6 +275,7 @@ def main():
     parser.add_argument("program", type=Path, help="the command endoflow")
     parser.add_argument("--engine", choices=TOLERANCE, default="boundary-integral")
     parser.add_argument("--kills", type=int, default=3)
+    parser.add_argument("--signal", choices=("KILL", "INT", "TERM", "HUP"), default="KILL")
     parser.add_argument("--seed", type=int, default=1, help="of the times of the kills")
     parser.add_argument("--case", type=Path, default=Path(os.devnull), help="case file [the standard case]")
     parser.add_argument("--until", type=float, help="time.end in us")
@@ -268,6 +283,7 @@ def main():
     parser.add_argument("--keep", type=Path, metavar="DIR", help="leave the runs there")
     options = parser.parse_args()
     options.program = options.program.resolve()
+    options.signal = signal.Signals[f"SIG{options.signal}"]
     options.until = options.until or UNTIL[options.engine]
     try:
         with directory_of_runs(options.keep) as directory:
