@@ -146,7 +146,7 @@ def _read_record(path: Path) -> dict[str, Any]:
     return record
 
 
-def damage_of(record):
+def damage_of(record: dict[str, Any]) -> str | None:
     """What is wrong with the times, events and alarms of a run.json (dict), as text; None when all is well."""
     if not _is_number(record["parameters"].get("time", {}), "end"):
         return "has no `parameters.time.end`"
@@ -163,7 +163,7 @@ def damage_of(record):
     return None
 
 
-def _is_number(entry, key):
+def _is_number(entry: Any, key: str) -> bool:
     """Whether something read from JSON is an object with a number under this key."""
     value = entry.get(key) if isinstance(entry, dict) else None
     return isinstance(value, (int, float)) and not isinstance(value, bool)
