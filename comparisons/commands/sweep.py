@@ -97,6 +97,7 @@ def run(options):
     from comparisons.drawing import sweep_plots  # a missing matplotlib must show before the runs
     from comparisons.page.study_report import sweep_html
     from comparisons.studies.members import parameter_units
+    from comparisons.studies.sweep_table import mixed_programs
 
     units = parameter_units(program())
     with lock(output):
@@ -112,6 +113,8 @@ def run(options):
                 print("endoflow sweep: interrupted; the same command continues", file=sys.stderr)
                 return 128 + interruption.signal
         rows = collect(members, outcomes, output)
+        if mixed := mixed_programs(rows):
+            print(f"endoflow sweep: warning: {mixed}", file=sys.stderr)
         keys = [*members[0].values]
         used = dict.fromkeys(member.parameters["membrane"]["curvature_convention"] for member in members)
         convention = " and ".join(used)

@@ -4,6 +4,7 @@ from comparisons.drawing.study_plots import TITLES
 from comparisons.measures.convergence import DISTANCES
 from comparisons.page import report
 from comparisons.page.report import escaped, figures, quantity, setting
+from comparisons.studies.sweep_table import mixed_programs
 
 
 def page(command, heading, subtitle, warnings, cards, sections, directory):
@@ -174,10 +175,11 @@ def sweep_html(rows, keys, convention, drawn, directory):
     """The page of a sweep: its rows (as of sweep_table) over the varied keys; drawn: {plot: title}."""
     failed = [f"{row['directory']} failed: {row['exit_reason']}" for row in rows if row["state"] == "failed"]
     alarmed = [f"{row['directory']}: accuracy alarm: {row['alarms']}" for row in rows if row["alarms"]]
+    mixed = [sentence] if (sentence := mixed_programs(rows)) else []
     heads = [column for column in rows[0] if column != "directory"]
     titles = [escaped(column.replace("_", " ")) for column in heads]
     body = report.table(titles, [("", [setting(row[column], 5) for column in heads]) for row in rows])
     plots = "".join(report.plot(directory / f"{name}.svg", title) for name, title in drawn.items())
     subtitle = f"{len(rows)} runs · curvature convention {convention} · {'with' if alarmed else 'no'} accuracy alarms"
     sections = [("Plots", plots)] * bool(plots) + [("Runs", body)]
-    return page("endoflow sweep", " and ".join(keys), subtitle, failed + alarmed, [], sections, directory)
+    return page("endoflow sweep", " and ".join(keys), subtitle, failed + alarmed + mixed, [], sections, directory)

@@ -2,7 +2,8 @@
 
 Columns: the varied parameters (section.key), engine, state, exit_reason, time_us (reached), budding_time_us, then the
 last row of history.csv: neck_radius_nm, lateral_diameter_nm, height_nm, area_nm2, energy_pN_nm; alarms (names of the
-quantities that left the bounds of an accurate run, between semicolons); wall_s; directory. Empty cells stand for "does not
+quantities that left the bounds of an accurate run, between semicolons); program (version and revision of all that took part
+in the run, between semicolons); wall_s; directory. Empty cells stand for "does not
 exist" (no neck, no budding, not run). Of a run that went on longer than the sweep asks for, time_us and what stands in
 history.csv are those at the sweep's end, wall_s is that of the whole run.
 """
@@ -58,9 +59,25 @@ def row(member, outcome=None):
         "budding_time_us": budding_time(found, end),
         **final_values(member.directory / "history.csv" if record else None, end),
         "alarms": "; ".join(alarm.name for alarm in alarms_of(found) if alarm.time <= end) or None,
+        "program": "; ".join(programs(found)) or None,
         "wall_s": found.get("wall_s"),
         "directory": str(member.directory),
     }
+
+
+def programs(record):
+    """Version and revision of every program that took part in a run (run.json as a dict), each once."""
+    parts = [record.get("provenance"), *(record.get("segments") or [])]
+    known = [part for part in parts if isinstance(part, dict) and part.get("version")]
+    return list(dict.fromkeys(f"{part['version']} ({part.get('git') or 'unknown'})" for part in known))
+
+
+def mixed_programs(rows):
+    """A sentence about rows of the table that different programs made; None when one made them all."""
+    found = dict.fromkeys(name for row in rows for name in (row["program"] or "").split("; ") if name)
+    if len(found) < 2:
+        return None
+    return f"the runs were made by different versions of the program: {', '.join(found)}; the column program tells which"
 
 
 def budding_time(record, end):

@@ -7,6 +7,7 @@
 #include "shared/parameters/parameter_rendering.h"
 #include "shared/parameters/parameter_table.h"
 #include "shared/support/error.h"
+#include "shared/support/version.h"
 
 namespace endoflow {
 
@@ -89,6 +90,7 @@ void require_continuable(const RunRecord& record, const Parameters& parameters, 
 
 void begin_segment(RunRecord& record, const Parameters& parameters, const EngineIdentity& engine, double begin_us) {
     RunRecord segment = {{"begin_us", begin_us},      {"started", utc_now()},
+                         {"version", version()},      {"git", git_description()},
                          {"host", host_name()},       {"processes", engine.processes},
                          {"threads", engine.threads}, {"parameters", RunRecord::object()}};
     for (const ParameterRow& row : parameter_table())

@@ -37,8 +37,8 @@ using RunRecord = nlohmann::ordered_json;
 void require_continuable(const RunRecord& record, const Parameters& parameters, const EngineIdentity& engine,
                          const std::string& source);
 
-/// Takes over the parameters and adds to `segments` when and where this part of the run begins, and with which values
-/// of the parameters that a restart may change.
+/// Takes over the parameters and adds to `segments` when, where and with which version of the program this part of the
+/// run begins, and with which values of the parameters that a restart may change.
 void begin_segment(RunRecord& record, const Parameters& parameters, const EngineIdentity& engine, double begin_us);
 
 /// Whether the run that the record tells of had its last word: it is neither running nor was it killed.

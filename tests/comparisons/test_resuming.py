@@ -53,6 +53,18 @@ class Resuming(SweepTest):
         self.assertEqual([row["alarms"] for row in self.rows("s")], ["", "energy-balance"])
         self.assertIn("accuracy alarm: energy-balance", (self.scratch / "s/report.html").read_text())
 
+    def test_runs_of_different_versions(self):
+        """What is finished is not repeated, so a table may hold what another version has computed: it says so."""
+        patch = ("--vary", "molecules.patch_radius=20,30", *BOUNDARY_INTEGRAL, "-o", "s")
+        self.assertEqual(self.sweep(*patch).stderr, "")
+        file = self.scratch / "s/patch_radius=30/boundary-integral/run.json"
+        record = json.loads(file.read_text())
+        file.write_text(json.dumps({**record, "segments": [{"version": "0.0.1", "git": "later"}]}))
+        process = self.sweep(*patch)
+        self.assert_one_line(process, 0, "warning: the runs were made by different versions of the program: 0.0.0 .synthetic., 0.0.1 .later.")
+        self.assertEqual([row["program"] for row in self.rows("s")], ["0.0.0 (synthetic)", "0.0.0 (synthetic); 0.0.1 (later)"])
+        self.assertIn("different versions", (self.scratch / "s/report.html").read_text())
+
     def test_one_failure_does_not_stop_the_others(self):
         process = self.sweep("--vary", "molecules.patch_radius=13,20,40", *BOUNDARY_INTEGRAL, "--jobs", "1")
         self.assert_one_line(process, 3, "patch_radius=13/boundary-integral: step-underflow: the step became too small")

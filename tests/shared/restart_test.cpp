@@ -9,6 +9,7 @@
 #include "shared/output/hdf5_file.h"
 #include "shared/output/run_lock.h"
 #include "shared/parameters/parameter_table.h"
+#include "shared/support/version.h"
 #include "temporary_directory.h"
 
 using namespace endoflow;
@@ -166,6 +167,8 @@ TEST_CASE("a restart with another problem is refused by name and changes nothing
     CHECK(segments[0]["begin_us"] == 0.0);
     CHECK(segments[0]["parameters"]["time.end"] == Parameters{}.time.end);
     CHECK(segments[1]["begin_us"] == 0.5);
+    CHECK(segments[1]["version"] == version());
+    CHECK(segments[1]["git"] == git_description());
     CHECK(segments[1]["parameters"]["time.end"] == 30.0);
     CHECK(segments[1]["parameters"]["time.tolerance"] == 1e-5);
 }
