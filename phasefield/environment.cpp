@@ -9,6 +9,7 @@
 
 #include "phasefield/driver/history.h"
 #include "phasefield/simulation.h"
+#include "shared/support/fast_blas.h"
 
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>
@@ -63,6 +64,7 @@ void hold_blas_to_one_thread() {
 }  // namespace
 
 Environment::Environment(int& argc, char**& argv) {
+    require_fast_blas(argv);
     setenv("OMP_NUM_THREADS", "1", 1);
     implementation_ = std::make_unique<Implementation>(argc, argv);
     hold_blas_to_one_thread();
