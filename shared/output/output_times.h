@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -24,6 +25,14 @@ inline double next_shape_time(double interval, double time) {
     for (double early = std::ldexp(interval, -early_shapes); early < interval; early *= 2)
         if (early > time * (1 + same_time)) return early;
     return next_multiple(interval, time);
+}
+
+/// The time between checkpoints [s] where one costs `cost`: the wanted `interval`, less (but two seconds) while they
+/// cost below 1 % of the time, so that a kill costs seconds, and more where they would cost above 2 % of it. With an
+/// interval of 0 there is one after every step.
+inline double checkpoint_pause(double interval, double cost) {
+    constexpr double shortest = 2, cheap = 0.01, most = 0.02;
+    return interval == 0 ? 0 : std::max(std::min(interval, std::max(shortest, cost / cheap)), cost / most);
 }
 
 }  // namespace endoflow

@@ -197,11 +197,9 @@ struct RunOutput::Implementation {
 
     /// Checkpoints cost the time that engines measure under this name.
     [[nodiscard]] double seconds_between_checkpoints() const {
-        constexpr double first_seconds = 2, part_of_time = 0.01;
         const auto phase = record["phases"].find("checkpoint");
         const double spent = phase == record["phases"].end() ? 0 : phase->at("wall_s").get<double>();
-        const double each = checkpoints == 0 ? 0 : spent / checkpoints;
-        return std::min(parameters.output.checkpoint_interval, std::max(first_seconds, each / part_of_time));
+        return checkpoint_pause(parameters.output.checkpoint_interval, checkpoints == 0 ? 0 : spent / checkpoints);
     }
 
     /// How far the run got and where its results are; `how` begins the line.

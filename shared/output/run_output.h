@@ -77,8 +77,7 @@ class RunOutput {
     void log_info(const std::string& message);
     void log_warning(const std::string& message);
 
-    /// True when output.checkpoint_interval of wall time has passed since the last checkpoint; earlier when checkpoints
-    /// cost less than 1 % of the time between them, so that a kill costs seconds.
+    /// True when checkpoint_pause() of wall time has passed since the last checkpoint.
     [[nodiscard]] bool checkpoint_due() const;
     void write_checkpoint(const Checkpoint& checkpoint);
 

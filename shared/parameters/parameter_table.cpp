@@ -349,8 +349,9 @@ std::vector<ParameterRow> output_rows() {
                 "simulated time between membrane shapes in shapes.h5; earlier ones at 1/256, 1/128, ... 1/2 of it")),
         free_on_restart(row("output", "field_interval", &P::output, &S::field_interval, "µs", at_least(0, 1e9), "",
                             "simulated time between field files for ParaView; 0 = no field files at all")),
-        free_on_restart(row("output", "checkpoint_interval", &P::output, &S::checkpoint_interval, "s", at_least(0, 1e9),
-                            "", "wall time between checkpoints, at most; less while they cost below 1 % of it")),
+        free_on_restart(
+            row("output", "checkpoint_interval", &P::output, &S::checkpoint_interval, "s", at_least(0, 1e9), "",
+                "wall time between checkpoints; less while they cost below 1 % of it, more where above 2 %")),
         free_on_restart(row("output", "stop_at_budding", &P::output, &S::stop_at_budding, "", any(), "",
                             "end the run when the neck radius falls below 5 nm")),
     };

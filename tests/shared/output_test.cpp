@@ -228,3 +228,12 @@ TEST_CASE("shapes are due early, then at multiples, at the same times whatever t
     for (std::size_t i = 0; i < due.size(); ++i) CHECK(times[i] == Approx(due[i]).epsilon(1e-12));
     CHECK(next_shape_time(0.1, 0.06) == Approx(0.1));
 }
+
+TEST_CASE("checkpoints are frequent while they are cheap, and cost at most a fiftieth of the time") {
+    CHECK(checkpoint_pause(30, 0) == 2);     // the first one
+    CHECK(checkpoint_pause(30, 0.1) == 10);  // 1 %
+    CHECK(checkpoint_pause(30, 0.5) == 30);  // as wanted: between 1 and 2 %
+    CHECK(checkpoint_pause(30, 2.4) == 120);
+    CHECK(checkpoint_pause(1, 2.4) == 120);
+    CHECK(checkpoint_pause(0, 2.4) == 0);
+}
