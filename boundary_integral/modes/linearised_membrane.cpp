@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "boundary_integral/membrane/energy.h"
+#include "shared/model/loads.h"
 
 namespace endoflow::boundary_integral {
 
@@ -32,8 +33,11 @@ struct LinearisedMembrane::RimTerms {
 LinearisedMembrane::LinearisedMembrane(const Parameters& parameters, const Surroundings& surroundings, BaseState base)
     : surroundings_(surroundings),
       energy_(membrane_energy(parameters)),
+      bending_(bending_energy(parameters)),
       transport_(transport_law(parameters.molecules)),
+      exchange_(parameters.molecules),
       base_(std::move(base)) {
+    base_.multipliers.pressure -= loads_of(parameters).pressure;  // pressure difference: minus its potential is p V
     Surroundings::Layers layers = surroundings_.layers(base_);
     base_.traction_sum = std::move(layers.traction_sum);
     layers_ = std::move(layers.of_mode);
@@ -70,6 +74,7 @@ LinearisedMembrane::RimTerms LinearisedMembrane::rim_terms(const ModeSpace& spac
     const Eigen::VectorXd residual =
         -energy_derivatives(membrane, base_.membrane, energy_, Derivatives::first).gradient -
         divergence_matrix(membrane, samples).transpose() * base_.multipliers.tension -
+        base_.multipliers.pressure * volume_gradient(membrane, samples).transpose() -
         force_mass_matrix(membrane, samples) * base_.force;
     rim.residual = residual[membrane.curve_count() - 2];
     return rim;
@@ -163,13 +168,16 @@ ModeRates LinearisedMembrane::rates(int mode) const {
     rates.velocity = velocities * velocity;
     rates.velocity.leftCols(displacements) += imposed;
     rates.mobility = mobility;
-    const DiffusionForms diffusion = diffusion_forms(space, base_, points_, transport_);
+    MoleculeForms molecules = diffusion_forms(space, base_, points_, transport_);
+    const MoleculeForms exchange = exchange_forms(space, points_, exchange_, bending_);
+    molecules.by_concentration += exchange.by_concentration;
+    molecules.by_displacement += exchange.by_displacement;
     const Eigen::MatrixXd scalars = scalar_mass(space, points_);
     const LuFactors w_mass(displaced.transpose() * scalars * displaced, "displacement mass");
     const LuFactors c_mass(scalar.transpose() * scalars * scalar, "concentration mass");
     Eigen::MatrixXd c_rate = -(scalar.transpose() * forms.along) * rates.velocity;
-    c_rate.leftCols(displacements) += scalar.transpose() * (diffusion.by_displacement - forms.turning) * displaced;
-    c_rate.rightCols(scalar.cols()) += scalar.transpose() * diffusion.by_concentration * scalar;
+    c_rate.leftCols(displacements) += scalar.transpose() * (molecules.by_displacement - forms.turning) * displaced;
+    c_rate.rightCols(scalar.cols()) += scalar.transpose() * molecules.by_concentration * scalar;
     if (space.clamped()) {
         const Index last = scalar.cols() - 1;  // the only function that does not vanish at the rim
         const MembraneState& state = base_.membrane;

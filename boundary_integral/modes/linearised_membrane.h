@@ -21,7 +21,9 @@ struct ModeRates {
 
 class LinearisedMembrane {
   public:
-    /// `base` needs no traction_sum: it is computed here, with the operators of all modes.
+    /// The base state is one of the engine's under the case's loads, which have no pole force: the force's place among
+    /// the molecules would be an unknown more. `base` needs no traction_sum: it is computed here, with the operators of
+    /// all modes.
     LinearisedMembrane(const Parameters& parameters, const Surroundings& surroundings, BaseState base);
 
     [[nodiscard]] ModeRates rates(int mode) const;
@@ -43,7 +45,9 @@ class LinearisedMembrane {
 
     const Surroundings& surroundings_;
     MembraneEnergy energy_;
+    MembraneEnergy bending_;
     TransportLaw transport_;
+    ExchangeLaw exchange_;
     BaseState base_;
     std::vector<CollocatedLayers> layers_;
     BasePoints points_;

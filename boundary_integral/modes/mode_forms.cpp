@@ -43,11 +43,6 @@ std::array<VelocityFunction, 3 * functions> velocity_functions(const ModeSpace& 
     return result;
 }
 
-SurfaceAmplitudes normal_displacement(int mode, const BasePoint& p, const BasisRow& row, std::size_t k) {
-    const Derivatives2 w = derivatives(row, k);
-    return surface_amplitudes(mode, product(w, p.normal_r), {}, product(w, p.normal_z));
-}
-
 // Variation of x_xi x x_phi by a displacement: its integral with v is that of the volume's gradient.
 std::array<double, 3> normal_variation(const CurvePoint& p, const SurfaceAmplitudes& a) {
     return {-p.r * a[2] - p.z1 * a[4], p.z1 * a[3] - p.r1 * a[5], p.r * a[0] + p.r1 * a[4]};
@@ -163,6 +158,11 @@ class Assembler {
 
 }  // namespace
 
+SurfaceAmplitudes normal_displacement(int mode, const BasePoint& p, const BasisRow& row, std::size_t k) {
+    const Derivatives2 w = derivatives(row, k);
+    return surface_amplitudes(mode, product(w, p.normal_r), {}, product(w, p.normal_z));
+}
+
 BasePoints base_points(const MembraneSpace& space, const BaseState& base, const MembraneEnergy& energy,
                        const Viscosities& viscosities) {
     BasePoints result;
@@ -174,6 +174,7 @@ BasePoints base_points(const MembraneSpace& space, const BaseState& base, const 
         SurfaceDensities densities = surface_densities(p.curve, p.c, p.c_s * p.curve.g, energy);
         result.energy.push_back(densities.energy + p.tension * densities.area);
         result.area.push_back(densities.area);
+        result.curvature.push_back(densities.curvature);
     }
     return result;
 }

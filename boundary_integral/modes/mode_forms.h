@@ -8,6 +8,7 @@
 
 #include "boundary_integral/modes/base_state.h"
 #include "boundary_integral/modes/mode_space.h"
+#include "shared/model/exchange.h"
 #include "shared/model/transport_law.h"
 
 namespace endoflow::boundary_integral {
@@ -17,10 +18,14 @@ struct BasePoints {
     std::vector<BasePoint> points;
     std::vector<SurfaceJet> energy;  // energy density + tension * area density
     std::vector<SurfaceJet> area;
+    std::vector<SurfaceAmplitudes> curvature;  // derivatives of kappa
     double pressure = 0.0;
 };
 [[nodiscard]] BasePoints base_points(const MembraneSpace& space, const BaseState& base, const MembraneEnergy& energy,
                                      const Viscosities& viscosities);
+
+/// Amplitudes of the displacement psi n, psi being the k-th function of a row of the scalar space.
+[[nodiscard]] SurfaceAmplitudes normal_displacement(int mode, const BasePoint& p, const BasisRow& row, std::size_t k);
 
 struct ModeForms {
     // Second variation of energy, tension and pressure, velocities x displacements, and by the concentration.
@@ -43,12 +48,16 @@ struct ModeForms {
 [[nodiscard]] Eigen::MatrixXd carrying_form(const ModeSpace& space, const BasePoints& base,
                                             const std::vector<double>& speed);
 
-/// Weak rate of c' (at material points) by diffusion: by c' itself and by the displacement, which changes the surface's
-/// metric. See TransportLaw.
-struct DiffusionForms {
+/// Weak rate of c' (at material points): by c' itself and by the displacement, which changes the surface's metric and
+/// curvature.
+struct MoleculeForms {
     Eigen::MatrixXd by_concentration, by_displacement;
 };
-[[nodiscard]] DiffusionForms diffusion_forms(const ModeSpace& space, const BaseState& base, const BasePoints& points,
-                                             const TransportLaw& law);
+/// By diffusion, see TransportLaw.
+[[nodiscard]] MoleculeForms diffusion_forms(const ModeSpace& space, const BaseState& base, const BasePoints& points,
+                                            const TransportLaw& law);
+/// By exchange, at the base state's mass of molecules, which modes m > 0 do not change. `bending` gives de/dc.
+[[nodiscard]] MoleculeForms exchange_forms(const ModeSpace& space, const BasePoints& points, const ExchangeLaw& law,
+                                           const MembraneEnergy& bending);
 
 }  // namespace endoflow::boundary_integral

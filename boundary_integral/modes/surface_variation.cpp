@@ -69,6 +69,7 @@ SurfaceDensities surface_densities(const CurvePoint& p, double c, double c_xi, c
     const LocalJet density = energy.density(curvature.value, c, gradient.value);
     result.per_area = compose(density, std::array<SurfaceJet, local::count>{curvature, c0, gradient});
     result.energy = result.per_area * result.area;
+    result.curvature = curvature.partial;
     return result;
 }
 

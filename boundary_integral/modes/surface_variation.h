@@ -36,9 +36,10 @@ struct Derivatives2 {
 [[nodiscard]] SurfaceAmplitudes concentration_amplitudes(int mode, const Derivatives2& c);
 
 struct SurfaceDensities {
-    SurfaceJet energy;    // per d xi d phi, pN nm
-    SurfaceJet area;      // nm^2
-    SurfaceJet per_area;  // energy/area, pN/nm
+    SurfaceJet energy;            // per d xi d phi, pN nm
+    SurfaceJet area;              // nm^2
+    SurfaceJet per_area;          // energy/area, pN/nm
+    SurfaceAmplitudes curvature;  // derivatives of kappa
 };
 
 /// At a point r > 0 of an axisymmetric membrane; `c_xi` is the derivative of c in xi.

@@ -108,7 +108,7 @@ TEST_CASE("ring kernels of modes 0 to 8 agree with adaptive quadrature", "[modes
     AzimuthalKernels kernels(highest_mode);
     for (const RingPair& pair : ring_pairs()) {
         const auto computed = kernels(pair);
-        for (const int mode : {0, 1, 2, 3, 5, 8}) {
+        for (int mode = 0; mode <= highest_mode; ++mode) {
             CAPTURE(pair.target_radius, pair.radius, pair.delta_r, pair.delta_z, mode);
             const ModeKernels& kernel = computed[static_cast<std::size_t>(mode)];
             for (std::size_t i = 0; i < 3; ++i) {

@@ -104,6 +104,24 @@ TEST_CASE("perturbations of a run's start: the worst is worse than any other", "
     }
 }
 
+TEST_CASE("a run whose membrane a force pulls has no modes, one under tension and pressure has", "[modes]") {
+    const ScratchDirectory scratch;
+    Parameters parameters = short_run();
+    parameters.time.end = parameters.output.shape_interval = 1e-3;
+    parameters.membrane.rim_tension = 0.1;
+    parameters.fluid.pressure_difference = 1e-3;
+    const auto recorded = [&](const char* name) {
+        {
+            RunOutput output(parameters, identity(parameters), scratch.path / name, StartMode::fresh);
+            output.finish(simulate(parameters, output));
+        }
+        return RecordedRun(scratch.path / name);
+    };
+    CHECK(recorded("loaded").parameters().membrane.rim_tension == 0.1);
+    parameters.membrane.pole_force = 5;
+    CHECK_THROWS_AS(recorded("pulled"), InputError);
+}
+
 TEST_CASE("a directory without a sharp run has no modes", "[modes]") {
     const ScratchDirectory scratch;
     CHECK_THROWS_AS(RecordedRun(scratch.path), IoError);
