@@ -9,7 +9,7 @@ import math  # noqa: E402
 import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
 import numpy as np  # noqa: E402
 
-from comparisons.drawing.plots import legend_on_top, save  # noqa: E402
+from comparisons.drawing.plots import save  # noqa: E402
 from comparisons.studies.outcome_map import OUTCOMES  # noqa: E402
 
 #: Marker and colour of each outcome (Okabe and Ito).
@@ -45,7 +45,7 @@ def write_all(rows, boundary_rows, folds, keys, labels, directory):
 
     rows: of map.csv, boundary_rows: of boundaries.csv; folds: {name of STATIC: [(x, y)]}; keys, labels: of x and y.
     """
-    figure, axes = plt.subplots(figsize=(9.6, 6.2), layout="constrained")
+    figure, axes = plt.subplots(figsize=(11, 6.2), layout="constrained")
     for outcome, (marker, colour) in LOOKS.items():
         own = [row for row in rows if row["outcome"] == outcome]
         if own:
@@ -59,6 +59,6 @@ def write_all(rows, boundary_rows, folds, keys, labels, directory):
     axes.set_ylabel(labels[1])
     if keys[0] == COAT:
         axes.secondary_xaxis("top", functions=(coat_area, coat_radius)).set_xlabel("coat’s area (1000 nm²)")
-    legend_on_top(figure, *axes.get_legend_handles_labels())
+    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
     save(figure, directory, "map")
     return {"map": f"Outcomes over {keys[0]} and {keys[1]}"}
