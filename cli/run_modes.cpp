@@ -52,7 +52,7 @@ int run(int argc, char** argv) {
     boundary_integral::write_modes(request, [](const std::string& line) { say(stdout, line + "\n"); });
     say(stdout, fmt::format("results in {}\n", request.directory.string()));
     if (tables_only) return 0;
-    become_python("comparisons", {"modes", request.directory.string()});
+    become_python("comparisons", {"modes", request.directory.string(), "--run", request.run.string()});
 }
 
 }  // namespace

@@ -118,10 +118,11 @@ def run(options):
     from comparisons.inference.results import warnings
     from comparisons.inference.simulator import Interrupted, Simulator
     from comparisons.inference.study_file import read_study
+    from comparisons.measures.basis import common_basis
     from comparisons.measures.metrics import flat_parameters
     from comparisons.page.inference_page import inference_html
     from comparisons.studies.member_runner import Interruption
-    from comparisons.studies.members import parameter_units, resolved_parameters
+    from comparisons.studies.members import parameter_units, read_record, resolved_parameters
 
     study = read_study(options.study)
     if not study.data and not study.contours and not options.sensitivity:
@@ -157,8 +158,9 @@ def run(options):
         }
         results["warnings"] = warnings(results)
         write_json(output / "infer.json", results)
+        records = [record for member in simulator.members.values() if (record := read_record(member.directory))]
         flat = {key: value for key, value in flat_parameters(parameters).items() if key.split(".")[0] != "phase_field"}
-        write_text(output / "report.html", inference_html(results, flat, drawn, output))
+        write_text(output / "report.html", inference_html(results, flat, common_basis(records), drawn, output))
         for warning in results["warnings"]:
             print(f"endoflow infer: warning: {warning}", file=sys.stderr)
         print("\n".join(summary_lines(results, output)))

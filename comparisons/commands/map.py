@@ -136,7 +136,9 @@ def static_points(directories, keys):
 def write_results(runs, known, cells, folds, units, output):
     """Tables, plot and page; returns what the terminal shows."""
     from comparisons.drawing import map_plots
+    from comparisons.measures.basis import common_basis
     from comparisons.page.map_page import map_html
+    from comparisons.studies.members import read_record
     from comparisons.studies.outcome_map import boundaries
     from comparisons.studies.sweep_table import write_table
 
@@ -153,7 +155,8 @@ def write_results(runs, known, cells, folds, units, output):
     labels = [f"{key} ({units[key]})" if key in units else key for key in keys]
     drawn = map_plots.write_all(rows, lines, folds, keys, labels, output)
     full = (runs.extent + 1) ** 2
-    write_text(output / "report.html", map_html(rows, lines, folds, keys, full, drawn, output))
+    basis = common_basis([record for row in rows if (record := read_record(Path(row["directory"])))])
+    write_text(output / "report.html", map_html(rows, lines, folds, keys, full, basis, drawn, output))
     outcomes = [row["outcome"] for row in rows]
     counts = ", ".join(f"{outcomes.count(name)} {name}" for name in dict.fromkeys(outcomes))
     return [

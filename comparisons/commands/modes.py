@@ -19,6 +19,7 @@ def parsed(arguments):
         prog="endoflow modes", description="Draw the modes that endoflow-modes has computed.", allow_abbrev=False
     )
     parser.add_argument("directory", metavar="DIR", type=Path, help="where modes.csv lies")
+    parser.add_argument("--run", metavar="DIR", type=Path, help="directory of the run, whose convention, resolution and alarms the page names")
     return parser.parse_args(arguments)
 
 
@@ -41,12 +42,16 @@ def run(options):
     """Run the command; returns its exit code."""
     import endoflow
     from comparisons.drawing import mode_plots
+    from comparisons.measures.basis import common_basis
     from comparisons.page.modes_report import modes_html
+    from comparisons.studies.members import read_record
 
     modes = endoflow.load_modes(options.directory)
     drawn = mode_plots.write_all(modes, options.directory)
     write_surfaces(modes, options.directory)
-    write_text(options.directory / "report.html", modes_html(modes, drawn, options.directory))
+    record = read_record(options.run) if options.run else None
+    basis = common_basis([record] if record else [])
+    write_text(options.directory / "report.html", modes_html(modes, basis, drawn, options.directory))
     print(f"report  {options.directory / 'report.html'}")
     print(f"ParaView  {options.directory / 'membrane_modes.pvd'}")
     return 0

@@ -95,8 +95,9 @@ def run(options):
     output = output_directory(options, "sweep")
     members = sweep_members(options, output)
     from comparisons.drawing import sweep_plots  # a missing matplotlib must show before the runs
+    from comparisons.measures.basis import common_basis
     from comparisons.page.study_report import sweep_html
-    from comparisons.studies.members import parameter_units
+    from comparisons.studies.members import parameter_units, read_record
     from comparisons.studies.sweep_table import mixed_programs
 
     units = parameter_units(program())
@@ -116,9 +117,10 @@ def run(options):
         if mixed := mixed_programs(rows):
             print(f"endoflow sweep: warning: {mixed}", file=sys.stderr)
         keys = [*members[0].values]
+        records = [record for member in members if (record := read_record(member.directory))]
         used = dict.fromkeys(member.parameters["membrane"]["curvature_convention"] for member in members)
         convention = " and ".join(used)
         drawn = sweep_plots.write_all(rows, keys, units, output)
-        write_text(output / "report.html", sweep_html(rows, keys, convention, drawn, output))
+        write_text(output / "report.html", sweep_html(rows, keys, convention, common_basis(records), drawn, output))
         print("\n".join(summary_lines(rows, output)))
         return RUN_FAILED if report_failures("sweep", outcomes) else 0

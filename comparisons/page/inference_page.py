@@ -2,7 +2,7 @@
 
 from comparisons.page import report
 from comparisons.page.report import escaped, figures, quantity
-from comparisons.page.study_report import page, parameters_table
+from comparisons.page.study_report import common_basis_section, page, parameters_table
 
 REGION_NOTE = (
     '<p class="note">Linearised: best fit with the 90 % interval of the covariance at it. Posterior: median with the 90 % '
@@ -15,21 +15,21 @@ DIRECTION_NOTE = (
 )
 
 
-def inference_html(results, parameters, drawn, directory):
-    """The page of a study's results (the dict of infer.json); parameters: flat; drawn: {plot: title}; directory: Path."""
+def inference_html(results, parameters, basis, drawn, directory):
+    """The page of a study's results (the dict of infer.json); parameters: flat; basis: of its runs; drawn: {plot: title}; directory: Path."""
     plots = "".join(report.plot(directory / f"{name}.svg", title) for name, title in drawn.items())
     sections = [("Plots", plots)] * bool(drawn)
     if "unknowns" in results:
         sections += [
             ("Unknowns", REGION_NOTE + unknowns_table(results["unknowns"])),
             ("What the data separate", DIRECTION_NOTE + directions_table(results["directions"])),
-            ("Fit, samples, emulator", basis_table(results)),
+            ("Fit, samples, emulator", machinery_table(results)),
         ]
     if "calibration" in results:
         sections.append(("Calibration", calibration_table(results["calibration"])))
     if "sensitivity" in results:
         sections.append(("Sensitivity (Sobol indices)", sensitivity_table(results["sensitivity"])))
-    sections.append(("Parameters of the case", parameters_table(parameters)))
+    sections += [*common_basis_section(basis), ("Parameters of the case", parameters_table(parameters))]
     study = results["study"]
     subtitle = f"Case “{study['case']}” · {study['engine']} · {results['runs']['total']} runs"
     return page("endoflow infer", "Parameters from data", subtitle, results["warnings"], cards(results), sections, directory)
@@ -68,8 +68,8 @@ def directions_table(directions):
     return report.table(["combination", "after the data / before", "verdict"], rows, "text")
 
 
-def basis_table(results):
-    """What the numbers rest on."""
+def machinery_table(results):
+    """How the fit was found and what its samples are worth."""
     fit, posterior, emulator = results["fit"], results["posterior"], results["emulator"]
     budding, check = posterior["budding_time_us"], emulator["check"]
     when = "–" if budding is None else f"{budding['median']:.4g} ({budding['low']:.4g} … {budding['high']:.4g})"

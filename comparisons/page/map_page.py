@@ -2,7 +2,7 @@
 
 from comparisons.page import report
 from comparisons.page.report import escaped, setting
-from comparisons.page.study_report import page
+from comparisons.page.study_report import common_basis_section, page
 
 NOTE = (
     '<p class="note">A boundary’s point is the middle of an edge of the finest cells whose ends have different outcomes: the '
@@ -10,8 +10,9 @@ NOTE = (
 )
 
 
-def map_html(rows, lines, folds, keys, full, drawn, directory):
-    """The page; rows: of map.csv, lines: of boundaries.csv, folds: {what: [(x, y)]}, full: runs of the full grid, drawn: {plot: title}."""
+def map_html(rows, lines, folds, keys, full, basis, drawn, directory):
+    """The page; rows: of map.csv, lines: of boundaries.csv, folds: {what: [(x, y)]}, full: runs of the full grid, basis: of the runs,
+    drawn: {plot: title}."""
     outcomes = [row["outcome"] for row in rows]
     cards = [(name, str(outcomes.count(name)), "runs") for name in dict.fromkeys(outcomes)]
     cards.append(("Runs", str(len(rows)), f"of {full} of the full grid"))
@@ -23,7 +24,7 @@ def map_html(rows, lines, folds, keys, full, drawn, directory):
     if folds:
         body = [(what, [setting(x, 6), setting(y, 6)]) for what, points in folds.items() for x, y in points]
         sections.append(("Stationary shapes", report.table([escaped(key) for key in keys], body)))
-    sections.append(("Runs", _table(rows)))
+    sections += [("Runs", _table(rows)), *common_basis_section(basis)]
     return page("endoflow map", " and ".join(keys), f"{len(rows)} runs", found, cards, sections, directory)
 
 

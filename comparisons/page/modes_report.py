@@ -7,6 +7,7 @@ import numpy as np
 from comparisons.drawing.mode_plots import INITIAL_AMPLITUDE, INITIAL_TITLES
 from comparisons.page import report
 from comparisons.page.report import escaped, figures, quantity
+from comparisons.page.study_report import common_basis_section
 from endoflow.curves import resample
 
 #: Points of a meridian in the moving picture, and digits of their numbers.
@@ -15,8 +16,8 @@ POINTS, DIGITS = 90, 3
 SCRIPTS = ("theme.js", "modes_view.js", "modes.js")
 
 
-def modes_html(modes, drawn, directory):
-    """The page of an endoflow.Modes; drawn: {plot: title}, written into directory (Path)."""
+def modes_html(modes, basis, drawn, directory):
+    """The page of an endoflow.Modes; basis: of the run; drawn: {plot: title}, written into directory (Path)."""
     boxes = "".join(
         f"<div><dt>{escaped(title)}</dt><dd>{value}<small>{escaped(note)}</small></dd></div>"
         for title, value, note in cards(modes)
@@ -26,6 +27,7 @@ def modes_html(modes, drawn, directory):
         ("Plots", plots),
         (f"Largest displacement (nm) {end_text(modes)}", perturbation_table(modes)),
         ("Largest growth rates (1/µs)", rate_table(modes)),
+        *common_basis_section(basis),
     ]
     data = json.dumps(report_data(modes), allow_nan=False, separators=(",", ":")).replace("</", "<\\/")
     return report.page(

@@ -171,8 +171,14 @@ def parameters_table(parameters):
     return report.table(["", "value"], rows, "text")
 
 
-def sweep_html(rows, keys, convention, drawn, directory):
-    """The page of a sweep: its rows (as of sweep_table) over the varied keys; drawn: {plot: title}."""
+def common_basis_section(basis):
+    """[(heading, ready HTML)] of what many runs rest on, from basis.common_basis; empty without runs."""
+    rows = [("", [escaped(what), escaped(value)]) for what, value in basis]
+    return [("What the numbers rest on", report.table(["", ""], rows, "text"))] if rows else []
+
+
+def sweep_html(rows, keys, convention, basis, drawn, directory):
+    """The page of a sweep: its rows (as of sweep_table) over the varied keys; basis: of its runs; drawn: {plot: title}."""
     failed = [f"{row['directory']} failed: {row['exit_reason']}" for row in rows if row["state"] == "failed"]
     alarmed = [f"{row['directory']}: accuracy alarm: {row['alarms']}" for row in rows if row["alarms"]]
     mixed = [sentence] if (sentence := mixed_programs(rows)) else []
@@ -181,5 +187,5 @@ def sweep_html(rows, keys, convention, drawn, directory):
     body = report.table(titles, [("", [setting(row[column], 5) for column in heads]) for row in rows])
     plots = "".join(report.plot(directory / f"{name}.svg", title) for name, title in drawn.items())
     subtitle = f"{len(rows)} runs · curvature convention {convention} · {'with' if alarmed else 'no'} accuracy alarms"
-    sections = [("Plots", plots)] * bool(plots) + [("Runs", body)]
+    sections = [("Plots", plots)] * bool(plots) + [("Runs", body)] + common_basis_section(basis)
     return page("endoflow sweep", " and ".join(keys), subtitle, failed + alarmed + mixed, [], sections, directory)

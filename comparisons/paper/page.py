@@ -62,19 +62,20 @@ def runs_table(runs):
         for engine, found in engines.items():
             head = [escaped(name), escaped(style.ENGINE_NAMES[engine])]
             if not is_run(found):
-                rows.append(("", [*head, escaped(f"not run: {found.reason}"), "–", "–", "–", "–"]))
+                rows.append(("", [*head, escaped(f"not run: {found.reason}"), "–", "–", "–", "–", "–"]))
                 continue
-            record, (convention, resolved) = found.record, [value for _, value in basis(found)[:2]]
+            record, (convention, resolved, alarmed) = found.record, [value for _, value in basis(found)]
             cells = [
                 escaped(record["exit_reason"]),
                 report.setting(float(found.history["time_us"][-1]), 5),
                 escaped(f"{resolved}; {convention}"),
+                escaped(alarmed),
                 report.figures(record.get("wall_s"), 3),
                 f"<code>{escaped(found.directory)}</code>",
             ]
             rows.append(("", [*head, *cells]))
     return report.table(
-        ["run", "engine", "ended with", "end (µs)", "resolution; curvature convention", "wall (s)", "directory"],
+        ["run", "engine", "ended with", "end (µs)", "resolution; curvature convention", "alarms", "wall (s)", "directory"],
         rows,
         "text",
     )

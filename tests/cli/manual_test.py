@@ -3,6 +3,7 @@
     python3 tests/cli/manual_test.py build/endoflow
 """
 
+import os
 import shutil
 import subprocess
 import sys
@@ -68,6 +69,23 @@ class Manual(unittest.TestCase):
                 )
                 done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, cwd=self.root)
                 self.assertEqual((done.stdout.split(), done.stderr), (wanted, ""))
+
+    @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
+    def test_fish_completes(self):
+        for line, wanted in (
+            ("endoflow sta", ["statics"]),
+            ("endoflow run ", ["boundary-integral", "phase-field"]),
+            ("endoflow run phase-field clo", ["closed_vesicle"]),
+            ("endoflow check standard --set molecules.patch_r", ["molecules.patch_radius="]),
+        ):
+            with self.subTest(line):
+                script = f"source {self.root}/endoflow.fish; complete -C '{line}'"
+                done = subprocess.run(
+                    ["fish", "--no-config", "-c", script], capture_output=True, text=True, cwd=self.root, env={**os.environ, "HOME": str(self.root)}
+                )
+                # Files of the working directory are offered beside what the line wants.
+                words = [text.split("\t")[0] for text in done.stdout.splitlines()]
+                self.assertEqual(sorted(word for word in words if not (self.root / word).exists()), wanted, done.stderr)
 
     def test_shells_and_man_take_them(self):
         """As far as these programs are installed."""

@@ -33,6 +33,11 @@ class CommandTest(unittest.TestCase):
         self.assertEqual(process.stderr.count("\n"), 1, process.stderr)
 
 
+def unnamed_basis(page):
+    """What a report page does not say of what every page must say: convention, resolution, alarms."""
+    return [word for word in ("curvature convention", "resolution", "alarms") if word not in page]
+
+
 class CompareTest(CommandTest):
     """Gives each test self.scratch (Path) with the runs self.a and self.b."""
 

@@ -6,6 +6,7 @@ import unittest
 from types import SimpleNamespace
 
 import locations  # noqa: F401
+from command import unnamed_basis
 from studies import StudyTest
 
 from comparisons.measures.convergence import DiffuseRun
@@ -35,6 +36,7 @@ class Converge(StudyTest):
         report = (self.scratch / "out/report.html").read_text()
         self.assertNotRegex(report, r"(?:src|href)=\"(?!data:)")
         self.assertIn("Mean distance: order", report)
+        self.assertEqual(unnamed_basis(report), [])
         self.runs()
         again = self.converge("--until", "0.8", "--times", "0.4")
         self.assertEqual((again.returncode, self.runs()), (0, []))

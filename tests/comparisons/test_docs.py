@@ -35,6 +35,16 @@ class Pages(unittest.TestCase):
                     broken.append(f"{page.name}: {target}")
         self.assertEqual(broken, [])
 
+    def test_tables_are_whole(self):
+        """A row behind an empty line starts a table, so a line of dashes follows."""
+        broken = []
+        for page in (locations.ROOT / "README.md", *pages()):
+            lines = page.read_text(encoding="utf-8").splitlines()
+            for number, (before, line, after) in enumerate(zip(lines, lines[1:], [*lines[2:], ""]), start=2):
+                if line.startswith("|") and not before.strip() and not re.match(r"\|[\s:|-]+\|$", after):
+                    broken.append(f"{page.name}:{number}: {line[:40]}")
+        self.assertEqual(broken, [])
+
     def test_named_source_files_exist(self):
         """In the pages that say which files to touch."""
         missing = []

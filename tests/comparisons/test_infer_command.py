@@ -9,6 +9,7 @@ import unittest
 from pathlib import Path
 
 import locations
+from command import unnamed_basis
 from studies import StudyTest
 
 PROGRAM = os.environ.get("ENDOFLOW_PROGRAM")
@@ -94,6 +95,7 @@ class WithTheEngine(StudyTest):
         page = (output / "report.html").read_text()
         for text in ("Parameters from data", "fixed by the data", "fluid.viscosity_intracellular"):
             self.assertIn(text, page)
+        self.assertEqual(unnamed_basis(page), [])
         again = self.call("infer", "study.toml")
         self.assertEqual((again.returncode, again.stderr), (0, ""))
         self.assertNotIn("running", again.stdout)

@@ -6,6 +6,7 @@ from pathlib import Path
 from unittest import mock
 
 import locations  # noqa: F401
+from command import unnamed_basis
 from studies import SweepTest
 
 import endoflow
@@ -94,7 +95,9 @@ class Map(SweepTest):
             # Half an edge is 0.0025 along the viscosity, which moves the line by a quarter of its fraction, and 0.15 µs.
             self.assertLessEqual(abs(end - 100 * viscosity * fractions[row["between"]]), 0.25 * BUD + 0.15)
         self.assertIn("instead of the 25 of the full grid", process.stdout)
-        self.assertIn("fluid.viscosity_intracellular", (self.scratch / "m/report.html").read_text())
+        page = (self.scratch / "m/report.html").read_text()
+        self.assertIn("fluid.viscosity_intracellular", page)
+        self.assertEqual(unnamed_basis(page), [])
         self.assertTrue((self.scratch / "m/map.png").exists())
         self.assertGreater(len(self.runs()), 9)
         again = self.call(*arguments)

@@ -16,6 +16,7 @@ import numpy as np
 import endoflow
 import synthetic
 from browser import Browser, chromium
+from command import unnamed_basis
 
 TIMES, BUDDING = (0.0, 0.4, 0.8, 1.0), 0.8
 INITIAL = ("dome", "edge", "sheet", "coat", "worst")
@@ -65,8 +66,12 @@ class ModesDirectory(unittest.TestCase):
         cls.scratch = tempfile.TemporaryDirectory()
         cls.directory = Path(cls.scratch.name)
         write_tables(cls.directory)
+        flat = synthetic.SphereOnPlane(1e5, 1e-3, 80.0, 1e-9)
+        synthetic.write_run(cls.directory / "run", "boundary-integral", lambda t: flat, [0, 1.0])
         cls.process = subprocess.run(
-            [sys.executable, locations.COMPARISONS, "modes", str(cls.directory)], capture_output=True, text=True
+            [sys.executable, locations.COMPARISONS, "modes", str(cls.directory), "--run", str(cls.directory / "run")],
+            capture_output=True,
+            text=True,
         )
 
     @classmethod
@@ -90,6 +95,7 @@ class ModesDirectory(unittest.TestCase):
         page = (self.directory / "report.html").read_text("utf-8")
         self.assertIsNone(re.search(r'(?:src|href)="(?!data:)', page))
         self.assertIn("0.1 nm becomes", page)
+        self.assertEqual(unnamed_basis(page), [])
 
     def test_displacements_of_the_surfaces(self):
         from comparisons.drawing.mode_plots import surface

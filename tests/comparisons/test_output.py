@@ -6,7 +6,7 @@ import sys
 import unittest
 
 import locations  # noqa: F401
-from command import CompareTest, compare
+from command import CompareTest, compare, unnamed_basis
 
 import synthetic
 
@@ -24,6 +24,7 @@ class Output(CompareTest):
             self.assertEqual((output / f"{name}.png").read_bytes()[:4], b"\x89PNG")
             self.assertIn("<svg", (output / f"{name}.svg").read_text())
         self.assertLess((output / "report.html").stat().st_size, 5e6)
+        self.assertEqual(unnamed_basis((output / "report.html").read_text()), [])
 
     def test_run_against_itself(self):
         output = self.scratch / "itself"
@@ -79,6 +80,7 @@ class Output(CompareTest):
             self.assertIn("<td>as-printed</td>", page)
             self.assertIn("layer of ε = 1.2 nm", page)
             self.assertNotRegex(page, r"(?:src|href)=\"(?!data:)")
+            self.assertEqual(unnamed_basis(page), [])
 
     def test_a_full_disk_names_the_file(self):
         for name in ("metrics.json", "histories.png", "report.html"):

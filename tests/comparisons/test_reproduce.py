@@ -14,6 +14,7 @@ import synthetic
 from endoflow.shapes import Shape
 from comparisons.paper import fig6, patch_sweep
 from comparisons.paper.fig4 import pinch_off_time
+from command import unnamed_basis
 from studies import StudyTest
 
 #: Keys of cases/*.toml and of the items' settings that synthetic.parameters lacks, and their values.
@@ -58,6 +59,7 @@ class Reproduce(StudyTest):
         self.assertEqual((process.returncode, process.stderr), (0, ""))
         self.assertEqual(self.runs(), [], "runs that went on longer serve as well")
         self.assertNotIn("phase-field rows", self.page("fig7"), "there are none")
+        self.assertEqual(unnamed_basis(self.page("fig7")), [])
         self.reproduce("figA2", "--until", "1")
         left = [
             f"p/runs/standard,constitutive_law={law}/boundary-integral fresh" for law in ("coarse-grained", "lumped")

@@ -4,6 +4,7 @@ import unittest
 
 import locations  # noqa: F401
 from browser import Browser, chromium
+from command import unnamed_basis
 from studies import BOUNDARY_INTEGRAL, PATCHES, SweepTest
 
 from comparisons.drawing import sweep_plots
@@ -23,7 +24,9 @@ class Sweep(SweepTest):
         for column in ("lateral_diameter_nm", "height_nm", "area_nm2", "energy_pN_nm", "wall_s"):
             self.assertGreater(float(rows[0][column]), 0)
         self.assertEqual((self.scratch / "out/case/sweep/sweep.png").read_bytes()[:4], b"\x89PNG")
-        self.assertIn("molecules.patch_radius", (self.scratch / "out/case/sweep/report.html").read_text())
+        page = (self.scratch / "out/case/sweep/report.html").read_text()
+        self.assertIn("molecules.patch_radius", page)
+        self.assertEqual(unnamed_basis(page), [])
         self.assertIn("3 of 3 done", process.stdout)
 
     def test_two_parameters_and_both_engines(self):

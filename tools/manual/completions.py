@@ -141,7 +141,8 @@ def fish(commands, parameters, cases):
         seen.add(words[0])
         condition = f'-n "__fish_seen_subcommand_from {words[0]}"'
         if takes_case(command):
-            text += f"complete -c endoflow {condition} -a {quoted(' '.join(cases))} -d 'case'\n"
+            behind = f"; and __fish_seen_subcommand_from {' '.join(engines)}" if words[0] == "run" else ""
+            text += f"complete -c endoflow {condition[:-1]}{behind}\" -a {quoted(' '.join(cases))} -d 'case'\n"
         for option in command["options"]:
             if not option["names"]:
                 continue
