@@ -2,7 +2,7 @@
 
 from comparisons.page import report
 from comparisons.page.report import escaped, setting
-from comparisons.page.study_report import common_basis_section, page
+from comparisons.page.study_report import common_basis_section, heading, page
 
 NOTE = (
     '<p class="note">A boundary’s point is the middle of an edge of the finest cells whose ends have different outcomes: the '
@@ -32,4 +32,4 @@ def _table(rows):
     """Rows of a CSV file but for directories."""
     heads = [head for head in rows[0] if head != "directory"]
     body = [("", [setting(row[head], 6) for head in heads]) for row in rows]
-    return report.table([escaped(head.replace("_", " ")) for head in heads], body)
+    return report.table([heading(head) for head in heads], body)

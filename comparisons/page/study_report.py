@@ -5,6 +5,7 @@ from comparisons.measures.convergence import DISTANCES
 from comparisons.page import report
 from comparisons.page.report import escaped, figures, quantity, setting
 from comparisons.studies.sweep_table import mixed_programs
+from endoflow.history import name_and_unit
 
 
 def page(command, heading, subtitle, warnings, cards, sections, directory):
@@ -171,6 +172,14 @@ def parameters_table(parameters):
     return report.table(["", "value"], rows, "text")
 
 
+def heading(column):
+    """A table's column as ready HTML: a parameter's key as it is, else name and unit."""
+    if "." in column:
+        return f"<code>{escaped(column)}</code>"
+    name, unit = name_and_unit(column)
+    return escaped(name if unit == "1" else f"{name} ({unit})")
+
+
 def common_basis_section(basis):
     """[(heading, ready HTML)] of what many runs rest on, from basis.common_basis; empty without runs."""
     rows = [("", [escaped(what), escaped(value)]) for what, value in basis]
@@ -183,8 +192,7 @@ def sweep_html(rows, keys, convention, basis, drawn, directory):
     alarmed = [f"{row['directory']}: accuracy alarm: {row['alarms']}" for row in rows if row["alarms"]]
     mixed = [sentence] if (sentence := mixed_programs(rows)) else []
     heads = [column for column in rows[0] if column != "directory"]
-    titles = [escaped(column.replace("_", " ")) for column in heads]
-    body = report.table(titles, [("", [setting(row[column], 5) for column in heads]) for row in rows])
+    body = report.table([heading(column) for column in heads], [("", [setting(row[column], 5) for column in heads]) for row in rows])
     plots = "".join(report.plot(directory / f"{name}.svg", title) for name, title in drawn.items())
     subtitle = f"{len(rows)} runs · curvature convention {convention} · {'with' if alarmed else 'no'} accuracy alarms"
     sections = [("Plots", plots)] * bool(plots) + [("Runs", body)] + common_basis_section(basis)

@@ -31,13 +31,18 @@ UNIT_WORDS = {"nm": "nm", "nm2": "nm²", "nm3": "nm³", "us": "µs", "s": "s", "
 
 def unit_of(column: str) -> str:
     """Unit of a history column as text, from its name: "x_pN_nm_per_us" is in "pN nm/µs"; "1" for a number without unit."""
-    words = column.split("_")[1:]
+    return name_and_unit(column)[1]
+
+
+def name_and_unit(column: str) -> tuple[str, str]:
+    """A column's name in words, and its unit: "bud_height_nm" is ("bud height", "nm"); "1" for a number without unit."""
+    words = column.split("_")
     start = len(words)
-    while start > 0 and (words[start - 1] in UNIT_WORDS or words[start - 1] == "per"):
+    while start > 1 and (words[start - 1] in UNIT_WORDS or words[start - 1] == "per"):
         start -= 1
     above, _, below = " ".join(words[start:]).partition("per")
     above, below = (" ".join(UNIT_WORDS[word] for word in part.split()) for part in (above, below))
-    return f"{above or '1'}/{below}" if below else above or "1"
+    return " ".join(words[:start]), f"{above or '1'}/{below}" if below else above or "1"
 
 
 def read_history(path: Path) -> dict[str, Array]:

@@ -27,6 +27,8 @@ class Sweep(SweepTest):
         page = (self.scratch / "out/case/sweep/report.html").read_text()
         self.assertIn("molecules.patch_radius", page)
         self.assertEqual(unnamed_basis(page), [])
+        for head in ("<code>molecules.patch_radius</code>", "budding time (µs)", "area (nm²)"):
+            self.assertIn(f'<th scope="col">{head}</th>', page)
         self.assertIn("3 of 3 done", process.stdout)
 
     def test_two_parameters_and_both_engines(self):
