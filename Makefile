@@ -75,6 +75,7 @@ install: build
 	DESTDIR=$(DESTDIR) cmake --install $(build) --prefix $(prefix)
 
 package: build
+	@tools/install_packages package
 	cd $(build) && cpack
 
 docs: build
