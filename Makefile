@@ -58,7 +58,10 @@ build: packages
 	@$(MAKE) --no-print-directory configure
 	cmake --build $(build) --target programs
 
-demo: build
+# The programs of the demonstration alone: a newcomer waits for no other.
+demo: packages
+	@$(MAKE) --no-print-directory configure
+	cmake --build $(build) --target endoflow $(addprefix endoflow-,$(engines))
 	tools/demo $(build) $(CORES) $(engines)
 
 test: test-packages
