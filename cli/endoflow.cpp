@@ -42,7 +42,7 @@ constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, comp
   endoflow compare DIR_A DIR_B [-o DIR]                    two runs: metrics.json, plots, report.html
   endoflow converge CASE.toml --epsilon E1,E2,...          phase field against sharp membrane as the layer gets thin
   endoflow sweep CASE.toml --vary KEY=FIRST:LAST:STEP --engine ENGINE [-o DIR] [--jobs N]      many runs of one case
-  endoflow reproduce ITEM [--quick|--full] [-o DIR] [--jobs N]     the paper: table2, fig3 ... fig7, figA2 or all
+  endoflow reproduce ITEM [--quick|--full] [-o DIR] [--jobs N]     the paper: table2, fig3 ... fig7, figA2, attribution ... or all
   endoflow map CASE.toml --vary KEY=LOW:HIGH --vary KEY=LOW:HIGH [-o DIR]   where outcomes change over two parameters
   endoflow infer STUDY.toml [-o DIR] [--calibrate N] [--sensitivity]       parameters from measured or simulated data
   endoflow report DIR [-o DIR]                             a page of one run: plots, numbers, alarms, provenance

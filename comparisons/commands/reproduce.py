@@ -1,7 +1,7 @@
 """`endoflow reproduce ITEM [--quick|--full] [-o DIR] [--jobs N]`: the paper's figures and tables, ours beside them.
 
-ITEM is table2, fig3, fig4, fig5, fig6, fig7, figA2 or all; or of other papers hassinger2017, derenyi2002, juelicher1996, which are
-branches of stationary shapes and need seconds. The runs lie in DIR/runs and are shared by the items; each item writes DIR/ITEM with report.html, plots (PNG, SVG) and ITEM.csv, and DIR/index.html lists them. Exit codes: 0 done,
+ITEM is table2, fig3, fig4, fig5, fig6, fig7, figA2; mobility, attribution, timescale or inertia, which ask why ours differ;
+all; or of other papers hassinger2017, derenyi2002, juelicher1996, which are branches of stationary shapes and need seconds. The runs lie in DIR/runs and are shared by the items; each item writes DIR/ITEM with report.html, plots (PNG, SVG) and ITEM.csv, and DIR/index.html lists them. Exit codes: 0 done,
 also when an engine refused a run: its item's page says so; 2 bad command line or parameter; 3 nothing ran; 4 input or output; 130 or
 143 interrupted (run it again to continue).
 """
@@ -17,7 +17,7 @@ from comparisons.studies.study import lock, program, run_members
 
 from .options import study_parser
 
-NAMES = ("table2", "fig3", "fig4", "fig5", "fig6", "fig7", "figA2")
+NAMES = ("table2", "fig3", "fig4", "fig5", "fig6", "fig7", "figA2", "mobility", "attribution", "timescale", "inertia")
 
 #: Items of other papers, which `all` leaves out.
 OTHER_NAMES = ("hassinger2017", "derenyi2002", "juelicher1996")

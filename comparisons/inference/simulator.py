@@ -78,7 +78,7 @@ class Simulator:
         parallel, threads = shares(available_cores(), self.jobs, of_mpi)
         mpirun = ("mpirun", "--bind-to", "none") if parallel > 1 else ("mpirun",)
         tasks = [Task(m, run_command(self.program, m, work_left(m), self.processes, mpirun)) for m in members]
-        progress = Progress(len(members), 0, parallel)
+        progress = Progress(tasks, 0, parallel)
         outcomes = run_all(tasks, parallel, member_environment(threads), progress, self.interruption)
         progress.finish()
         self.total += len(members)

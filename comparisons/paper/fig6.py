@@ -11,7 +11,19 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
 from comparisons.drawing.sweep_plots import LOOKS  # noqa: E402
 
 from . import patch_sweep  # noqa: E402
-from .item import NECK_CLOSED, Printed, Result, not_run_remarks, quick_remark, text  # noqa: E402
+from .item import (  # noqa: E402
+    NECK_CLOSED,
+    PHASE_FIELD,
+    Printed,
+    Result,
+    Wanted,
+    end_of,
+    final_value,
+    is_run,
+    not_run_remarks,
+    quick_remark,
+    text,
+)
 from .patch_sweep import EARLY, STATIONARY, of_engine  # noqa: E402
 
 TITLE = "Fig. 6: vesicle diameter and neck radius by patch radius"
@@ -19,7 +31,39 @@ TITLE = "Fig. 6: vesicle diameter and neck radius by patch radius"
 #: What the text prints: diameter (nm) of the fastest budding patch of 36 nm, and the radius of the smallest neck.
 PAPER_DIAMETER, PAPER_RADIUS, PAPER_NECK_MINIMUM = 42.0, 36, 40
 
-wanted = patch_sweep.wanted
+#: Radii (nm) whose late necks are also computed with a thinner layer (nm): a stationary neck would not depend on it.
+THIN_RADII, THIN = (36, 48), 0.85
+
+
+def wanted(quick):
+    """The patch sweep, and unless `quick` two of its radii with a thinner layer."""
+    thin = [
+        Wanted(thin_name(r), PHASE_FIELD, "standard", {"phase_field.epsilon": f"{THIN:g}"} | of_radius(r), STATIONARY)
+        for r in THIN_RADII
+    ]
+    return patch_sweep.wanted(quick) + ([] if quick else thin)
+
+
+def of_radius(radius):
+    """The setting of a patch radius (nm)."""
+    return {} if radius == PAPER_RADIUS else {"molecules.patch_radius": str(radius)}
+
+
+def thin_name(radius):
+    """Name of the run with the thinner layer."""
+    return f"{patch_sweep.name_of(radius)}, ε={THIN:g}"
+
+
+def late_necks(runs):
+    """item.Printed of the last neck by both layers, for every radius that has the thinner one."""
+    found = []
+    for radius in THIN_RADII:
+        both = [runs.get(name, {}).get(PHASE_FIELD) for name in (patch_sweep.name_of(radius), thin_name(radius))]
+        if all(run is not None and is_run(run) for run in both):
+            words = " / ".join(f"{text(final_value(run, 'neck_radius_nm'), 3)} at {end_of(run):g} µs" for run in both)
+            what = f"last neck radius at r_c = {radius} nm with layers of 1.2 / {THIN:g} nm, nm"
+            found.append(Printed(what, "stationary", {PHASE_FIELD: words}))
+    return found
 
 
 def line_fit(x, y):
@@ -84,6 +128,7 @@ def result(runs, quick):
             )
             for when, column in ((f"at {EARLY:g} µs", "neck_radius_at_1_us_nm"), ("at the end", "neck_radius_nm"))
         ),
+        *late_necks(runs),
     ]
     remarks = [
         f"The neck radii at {STATIONARY:g} µs are not stationary: see Fig. 5. A sharp neck keeps draining, so its value and the "

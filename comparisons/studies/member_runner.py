@@ -133,8 +133,7 @@ def _started(task, environment):
         env=environment,
         start_new_session=True,
     )
-    start_time = simulated_time(task.member.directory) if "--restart" in task.command else 0.0
-    return Running(task, process, errors, time.time(), start_time)
+    return Running(task, process, errors, time.time(), start_time(task))
 
 
 def _outcome(one, interrupted):
@@ -176,6 +175,11 @@ def _leaves(pid, children):
     """Ids of the descendants of a process that have no children; the process itself when it has none."""
     below = children.get(pid, [])
     return [leaf for child in below for leaf in _leaves(child, children)] if below else [pid]
+
+
+def start_time(task):
+    """Simulated time (µs) at which a task starts: where its member's run was interrupted, or 0."""
+    return simulated_time(task.member.directory) if "--restart" in task.command else 0.0
 
 
 def simulated_time(directory, since=0.0):

@@ -71,7 +71,7 @@ def directory_name(values):
     The section is left out unless two keys would look alike. Letters that a path should not hold are percent-encoded, so
     that different values have different paths.
     """
-    short = [key.split(".")[1] for key in values]
+    short = [key.split(".")[-1] for key in values]
     names = [key if short.count(name) > 1 else name for key, name in zip(values, short)]
     return "/".join(f"{name}={quote(value, safe='+=')}" for name, value in zip(names, values.values()))
 

@@ -4,20 +4,25 @@ import shutil
 import sys
 import time
 
-from comparisons.studies.member_runner import FAILED, FINISHED, INTERRUPTED, simulated_time
+from comparisons.studies.cost import expected_seconds, remaining_seconds
+from comparisons.studies.member_runner import FAILED, FINISHED, INTERRUPTED, simulated_time, start_time
 
 #: Seconds between two updates of the line on a terminal.
 UPDATE_INTERVAL = 0.5
 
 
 class Progress:
-    """Callable for member_runner.run_all: one live line on a terminal, a new line at each change otherwise."""
+    """Callable for member_runner.run_all: one live line on a terminal, a new line at each change otherwise.
 
-    def __init__(self, total, already_done, parallel, stream=None):
-        self.total, self.already_done, self.parallel = total, already_done, parallel
+    tasks: what is run (member_runner.Task); already_done: number of other members.
+    """
+
+    def __init__(self, tasks, already_done, parallel, stream=None):
+        self.members = {task.member.name: (task.member, start_time(task)) for task in tasks}
+        self.total, self.already_done, self.parallel = len(tasks) + already_done, already_done, parallel
         self.stream = stream or sys.stdout
         self.live = self.stream.isatty()
-        self.durations, self.known = [], {}
+        self.ended, self.known = [], {}
         self.counts, self.updated = None, 0.0
 
     def __call__(self, running, outcomes):
@@ -27,7 +32,7 @@ class Progress:
         for name in [name for name in self.known if name in outcomes]:
             started = self.known.pop(name)
             if outcomes[name].state == FINISHED:
-                self.durations.append(now - started)
+                self.ended.append((now - started, self.expected(name)))
         counts = (len(running), len(outcomes))
         if counts == self.counts and not (self.live and now > self.updated + UPDATE_INTERVAL):
             return
@@ -39,14 +44,28 @@ class Progress:
         states = [outcome.state for outcome in outcomes.values()]
         parts = [f"{self.already_done + states.count(FINISHED)} of {self.total} done", f"{len(running)} running"]
         parts += [f"{states.count(s)} {s}" for s in (FAILED, INTERRUPTED) if s in states]
-        advances = [fraction(one) for one in running]
+        advances = [(one, one.task.member, reached(one)) for one in running]
         if advances:
-            parts[1] += " (" + ", ".join(f"{100 * reached:.0f} %" for _, reached in advances[:8]) + ")"
-        waiting = self.total - self.already_done - len(running) - len(outcomes)
-        left = remaining([(now - o.started, a) for o, (a, _) in zip(running, advances)], waiting, self.durations)
+            percent = [100 * time / member.end if member.end > 0 else 0.0 for _, member, time in advances[:8]]
+            parts[1] += " (" + ", ".join(f"{one:.0f} %" for one in percent) + ")"
+        names = {member.name for _, member, _ in advances}
+        waiting = [name for name in self.members if name not in names and name not in outcomes]
+        left = remaining_seconds(
+            [
+                (now - one.started, work(member, one.start_time, time), work(member, time, member.end))
+                for one, member, time in advances
+            ],
+            [self.expected(name) for name in waiting],
+            self.ended,
+        )
         if running or waiting:
             parts.append("ETA –" if left is None else f"ETA {duration(left / min(self.parallel, len(running) or 1))}")
         return ", ".join(parts)
+
+    def expected(self, name):
+        """Expected seconds of a member's whole task."""
+        member, start = self.members[name]
+        return work(member, start, member.end)
 
     def _show(self, text):
         width = shutil.get_terminal_size().columns - 1
@@ -59,25 +78,14 @@ class Progress:
             self.stream.write("\n")
 
 
-def fraction(one):
-    """(done since its start, done in all) of a running member, as fractions of the simulated time."""
-    end, start = one.task.member.end, one.start_time
-    now = max(start, simulated_time(one.task.member.directory, one.started))
-    return (now - start) / (end - start) if end > start else 0.0, now / end if end > 0 else 0.0
+def reached(one):
+    """Simulated time (µs) a running member has reached."""
+    return max(one.start_time, simulated_time(one.task.member.directory, one.started))
 
 
-def remaining(running, waiting, durations):
-    """Seconds of work left, None while nothing is known.
-
-    running: [(elapsed s, fraction done)], waiting: number of members, durations: s of those that ended.
-    """
-    totals = [elapsed / done for elapsed, done in running if done > 1e-3]
-    known = totals + list(durations)
-    if not known:
-        return None
-    mean = sum(known) / len(known)
-    left = [max(0.0, (elapsed / done if done > 1e-3 else mean) - elapsed) for elapsed, done in running]
-    return sum(left) + waiting * mean
+def work(member, start, end):
+    """Expected seconds from one simulated time (µs) to another."""
+    return max(0.0, expected_seconds(member, end) - expected_seconds(member, start)) if end > start else 0.0
 
 
 def duration(seconds):

@@ -40,7 +40,7 @@ def run_members(members, options, interruption):
     """Run what is left of the members; returns {member name: Outcome} of those that were run."""
     from comparisons.studies.member_runner import Task, available_cores, member_environment, run_all, shares
     from comparisons.studies.members import CONTINUE, FINISHED, run_command, work_left
-    from comparisons.studies.progress import Progress
+    from comparisons.studies.progress import Progress, duration
 
     processes = max([options.processes if member.engine == "phase-field" else 1 for member in members], default=1)
     parallel, threads = shares(available_cores(), options.jobs, processes)
@@ -58,7 +58,10 @@ def run_members(members, options, interruption):
     done, continued = len(members) - len(tasks), list(work.values()).count(CONTINUE)
     known = [f"{done} finished before"] * (done > 0) + [f"{continued} to be continued"] * (continued > 0)
     print(f"{len(members)} run(s)" + "".join(f", {text}" for text in known), flush=True)
-    progress = Progress(len(members), done, parallel)
+    progress = Progress(tasks, done, parallel)
+    if tasks:
+        seconds = sum(progress.expected(task.member.name) for task in tasks)
+        print(f"about {duration(seconds)} of work for one core, by runs that were measured", flush=True)
     outcomes = run_all(tasks, parallel, member_environment(threads), progress, interruption)
     progress.finish()
     return outcomes

@@ -44,6 +44,18 @@ struct EnumNames<PhaseFieldScheme> {
     static constexpr std::array names{"paper", "production"};
 };
 template <>
+struct EnumNames<StepRule> {
+    static constexpr std::array names{"guarded", "ramp"};
+};
+template <>
+struct EnumNames<BendingUnknown> {
+    static constexpr std::array names{"moment", "f"};
+};
+template <>
+struct EnumNames<ForceSign> {
+    static constexpr std::array names{"plus", "minus"};
+};
+template <>
 struct EnumNames<ViscosityMean> {
     static constexpr std::array names{"arithmetic", "harmonic"};
 };
@@ -268,12 +280,20 @@ std::vector<ParameterRow> paper_scheme_rows() {
             "weight of the new φ in u·∇φ; 0 = old φ as printed, 0.5 = no anti-diffusion of the profile"),
         row("phase_field.paper", "force_centering", paper, &S::force_centering, "", at_least(0, 1), "",
             "weight of the new φ and f in the membrane's forces; 0 = as printed, 1 = exact balance"),
+        row("phase_field.paper", "bending_unknown", paper, &S::bending_unknown, "", any(), "",
+            "what is a finite element function: f as printed, or the moment β f, whose g is the exact variation of the "
+            "discrete energy"),
+        row("phase_field.paper", "force_sign", paper, &S::force_sign, "", any(), "±g ∇φ",
+            "sign of the membrane's force: plus as in (20) and (32), minus as in Sec. 3, which feeds energy in"),
+        row("phase_field.paper", "step_rule", paper, &S::step_rule, "", any(), "",
+            "ramp = the printed steps, whatever the membrane does: a step that fails ends the run; guarded = they are "
+            "held back by max_motion, and a step that fails is halved"),
         row("phase_field.paper", "ramp_steps", paper, &S::ramp_steps, "", at_least(1, 1e6), "",
             "the time step doubles after so many steps until it reaches its limit; printed: 30"),
         row("phase_field.paper", "max_step", paper, &S::max_step, "µs", positive(1e6), "τ_max",
             "largest time step (time.max_step holds as well); printed: 2e-3"),
         row("phase_field.paper", "max_motion", paper, &S::max_motion, "nm", positive(1e3), "",
-            "largest motion of the membrane within one time step"),
+            "largest motion of the membrane within one time step; step_rule = ramp does not read it"),
     };
 }
 

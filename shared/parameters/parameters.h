@@ -15,6 +15,9 @@ enum class Transport { cahn_hilliard, fickian, advection };
 enum class Coupling { none, energetic };
 enum class Exchange { none, reservoir, edge };
 enum class PhaseFieldScheme { paper, production };
+enum class StepRule { guarded, ramp };
+enum class BendingUnknown { moment, f };
+enum class ForceSign { plus, minus };
 enum class ViscosityMean { arithmetic, harmonic };
 
 struct CaseParameters {
@@ -82,6 +85,9 @@ struct PaperSchemeParameters {
     double profile_mobility = 600;
     double advection_centering = 0.5;
     double force_centering = 1;
+    BendingUnknown bending_unknown = BendingUnknown::moment;
+    ForceSign force_sign = ForceSign::plus;
+    StepRule step_rule = StepRule::guarded;
     int ramp_steps = 10;
     double max_step = 2e-3;
     double max_motion = 0.3;

@@ -12,7 +12,8 @@ import locations  # noqa: F401
 import synthetic
 from comparisons.studies.member_runner import shares
 from comparisons.studies.members import CONTINUE, FINISHED, FRESH, Member, directory_name, run_command, work_left
-from comparisons.studies.progress import duration, remaining
+from comparisons.studies.cost import expected_seconds, remaining_seconds, steps
+from comparisons.studies.progress import duration
 from comparisons.studies.sweep_table import row
 from studies import StudyTest
 
@@ -96,6 +97,25 @@ class Work(unittest.TestCase):
         self.assertEqual(run_command("e", sharp, FRESH, 4)[0], "e")
 
 
+class Cost(unittest.TestCase):
+    """Expected costs: what makes them up."""
+
+    def test_steps_of_the_ramp(self):
+        times, paper = {"initial_step": 1.0}, {"max_step": 4.0, "ramp_steps": 3}
+        # 3 steps of 1, 3 of 2, then steps of 4 µs.
+        self.assertEqual([steps(times, paper, end) for end in (2, 3, 9, 17)], [2, 3, 6, 8])
+        self.assertEqual(steps(times, {"max_step": 0.5, "ramp_steps": 3}, 5), 10)
+
+    def test_a_thinner_layer_costs_more_and_a_longer_run_too(self):
+        def member(engine, **phase_field):
+            return Member("m", "c", Path("d"), engine, (), {}, {"phase_field": phase_field})
+
+        thick, thin = (member("phase-field", scheme="paper", epsilon=e, cell_size=0.7 * e) for e in (2.4, 1.2))
+        self.assertGreater(expected_seconds(thin, 0.5), 2 * expected_seconds(thick, 0.5))
+        for one in (thin, member("boundary-integral"), member("phase-field", scheme="production")):
+            self.assertGreater(expected_seconds(one, 20), expected_seconds(one, 0.5))
+
+
 class Parallel(unittest.TestCase):
     def test_no_more_threads_than_cores(self):
         self.assertEqual(shares(8, None, 1), (8, 1))
@@ -109,9 +129,11 @@ class Parallel(unittest.TestCase):
                     self.assertLessEqual(parallel * threads * processes, cores)
 
     def test_time_left(self):
-        self.assertIsNone(remaining([(5.0, 0.0)], 3, []))
-        self.assertAlmostEqual(remaining([(5.0, 0.25)], 2, []), 15 + 2 * 20)
-        self.assertAlmostEqual(remaining([(1.0, 0.0)], 1, [4.0, 6.0]), 4 + 5)
+        self.assertIsNone(remaining_seconds([(5.0, 0.0, 10.0)], [10.0] * 3, []))
+        # A quarter of what was expected to take 10 s took 5: half as fast as expected.
+        self.assertAlmostEqual(remaining_seconds([(5.0, 2.5, 7.5)], [10.0, 10.0], []), 2 * (7.5 + 20))
+        # A cheap run that ended says how fast the machine is for a dear one that waits.
+        self.assertAlmostEqual(remaining_seconds([(1.0, 0.0, 3.0)], [30.0], [(6.0, 3.0)]), 2 * 33)
         self.assertEqual([duration(s) for s in (5, 200, 7200)], ["5 s", "3 min", "2.0 h"])
 
 

@@ -92,6 +92,21 @@ TEST_CASE("rejected steps in a row end in a run that goes on", "[faults]") {
     CHECK(record.find("\"rejected\": 0") == std::string::npos);
 }
 
+TEST_CASE("the sign of Sec. 3 blows up, and by the printed ramp that is an error with a name", "[faults]") {
+    const TemporaryDirectory scratch;
+    Parameters p = short_run();
+    p.phase_field.paper.force_sign = ForceSign::minus;
+    p.phase_field.paper.step_rule = StepRule::ramp;
+    p.time.end = 1;
+    RunOutput output(p, identity(1), scratch.path() / "run", StartMode::fresh, OutputRole::owner);
+    try {
+        simulate(p, output, MPI_COMM_SELF);
+        FAIL("the energy cannot grow for ever");
+    } catch (const SolverError& error) {
+        CHECK(error.name() == "printed-scheme-failed");
+    }
+}
+
 TEST_CASE("steps that are always rejected end in an error with a name, and no row is written", "[faults]") {
     const TemporaryDirectory scratch;
     Parameters p = short_run();

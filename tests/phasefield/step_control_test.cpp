@@ -46,6 +46,24 @@ TEST_CASE("a large motion shortens the step, a rejection halves it, and that end
     }
 }
 
+TEST_CASE("the printed ramp takes no notice of the membrane, and a step that fails ends the run", "[control]") {
+    Parameters p;
+    p.time.initial_step = 1e-5;
+    p.phase_field.paper.step_rule = StepRule::ramp;
+    p.phase_field.paper.ramp_steps = 2;
+    StepControl control(p);
+    CHECK_FALSE(control.too_far(1e6));
+    CHECK(control.too_far(std::numeric_limits<double>::quiet_NaN()));
+    for (int i = 0; i < 2; ++i) control.accept(control.nominal, 1e6);
+    CHECK(control.nominal == Approx(2e-5));
+    try {
+        control.reject(0.1);
+        FAIL("no error");
+    } catch (const SolverError& error) {
+        CHECK(error.name() == "printed-scheme-failed");
+    }
+}
+
 TEST_CASE("a step ends at the deadline without a tiny last step", "[control]") {
     Parameters p;
     p.time.initial_step = 1e-3;

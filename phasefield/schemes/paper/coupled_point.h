@@ -19,6 +19,9 @@ struct CoupledPoint {
     double viscosity;               // ν(φⁿ)
     double velocity_r, velocity_z;  // uⁿ (inertia)
     double moment;                  // (β f)ⁿ
+    double moment_per_unknown;      // w: β f = w X, X being the unknown of (37); 1 or β(cⁿ)
+    double per_unknown_r;           // ∂_r w
+    double per_unknown_z;           // ∂_z w
     double c_r, c_z;                // ∇cⁿ
     BendingCoefficients bending;    // β(cⁿ), C(cⁿ)
     double stretching;              // sⁿ

@@ -90,10 +90,16 @@ void OldFields::evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterator&
         p.viscosity = viscosity(p.phi.value, parameters_.fluid, numerics.viscosity_mean);
         p.velocity_r = u_r_.value[q];
         p.velocity_z = u_z_.value[q];
-        p.moment = moment_.value[q];
         p.c_r = concentration_.r[q];
         p.c_z = concentration_.z[q];
         p.bending = bending_coefficients(model_, concentration_.value[q]);
+        const bool is_f = numerics.paper.bending_unknown == BendingUnknown::f;
+        const bool clipped = clip_concentration(concentration_.value[q]) != concentration_.value[q];
+        const double slope = is_f && !clipped ? p.bending.stiffness_c : 0;
+        p.moment_per_unknown = is_f ? p.bending.stiffness : 1;
+        p.per_unknown_r = slope * p.c_r;
+        p.per_unknown_z = slope * p.c_z;
+        p.moment = p.moment_per_unknown * moment_.value[q];
         p.stretching = stretching_.value[q];
     }
     if (gradient_ != nullptr) evaluate_relaxation(cell, points);

@@ -61,7 +61,8 @@ State initial_state(Discretization& d) {
         d.spaces.flow, moment,
         [&](double r, double z) {
             const auto b = bending_coefficients(model, c(r));
-            return b.stiffness * b.curvature * inverse_sqrt2 * (1 - profile(z) * profile(z));
+            const double stiffness = p.phase_field.paper.bending_unknown == BendingUnknown::f ? 1 : b.stiffness;
+            return stiffness * b.curvature * inverse_sqrt2 * (1 - profile(z) * profile(z));
         },
         state.flow);
     interpolate(

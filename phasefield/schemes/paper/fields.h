@@ -5,7 +5,7 @@
 
 namespace endoflow::phasefield::paper {
 
-/// Components of the coupled system of Sec. 3, step 1. `moment` is β f.
+/// Components of the coupled system of Sec. 3, step 1. `moment` is β f, or f where bending_unknown says so.
 enum FlowComponent : unsigned int { u_r = 0, u_z = 1, pressure = 2, tension = 3, phi = 4, force = 5, moment = 6 };
 inline constexpr unsigned int n_flow_components = 7;
 

@@ -13,21 +13,26 @@ namespace {
 /// The mesh follows when the membrane may have moved this far since it was made; in units of ε.
 constexpr double adapt_after_motion = 0.4;
 
+/// By (21) the energy falls. A step in which it more than doubles, and not by round-off alone, is no solution.
+bool grows_wildly(double before, double after, const MembraneParameters& membrane) {
+    return after > 2 * before + membrane.bending_stiffness;
+}
+
 }  // namespace
 
 PaperScheme::PaperScheme(const Parameters& parameters, MPI_Comm communicator)
     : discretization_(parameters, communicator), control_(parameters) {}
 
-StepOutcome PaperScheme::present() const {
+StepOutcome PaperScheme::begin() {
     const Spaces& spaces = discretization_.spaces;
-    return {diagnose_step(spaces, state_, state_, 0, discretization_.parameters),
-            extract_contour(contour_fields(spaces, state_), discretization_.parameters),
-            {}};
+    const StepDiagnostics diagnostics = diagnose_step(spaces, state_, state_, 0, discretization_.parameters);
+    energy_ = diagnostics.bending_energy;
+    return {diagnostics, extract_contour(contour_fields(spaces, state_), discretization_.parameters), {}};
 }
 
 StepOutcome PaperScheme::start() {
     take_over(state_, initial_state(discretization_));
-    return present();
+    return begin();
 }
 
 StepOutcome PaperScheme::load(const std::filesystem::path& directory, const Checkpoint& checkpoint) {
@@ -35,7 +40,7 @@ StepOutcome PaperScheme::load(const std::filesystem::path& directory, const Chec
     control_.since_doubling = checkpoint.scalar("steps_since_doubling");
     moved_ = checkpoint.scalar("moved");
     take_over(state_, load_mesh_and_state(directory, discretization_));
-    return present();
+    return begin();
 }
 
 void PaperScheme::save(const std::filesystem::path& directory, Checkpoint& checkpoint) {
@@ -49,9 +54,12 @@ StepOutcome PaperScheme::attempt(double /*time*/, double tau) {
     const Spaces& spaces = discretization_.spaces;
     take_over(trial_, advance(discretization_, state_, tau));
     StepOutcome outcome{diagnose_step(spaces, state_, trial_, tau, discretization_.parameters), {}, {}};
-    const double motion = outcome.diagnostics.motion_max;
-    if (control_.too_far(motion) || !std::isfinite(outcome.diagnostics.bending_energy))
+    const double motion = outcome.diagnostics.motion_max, energy = outcome.diagnostics.bending_energy;
+    if (control_.too_far(motion) || !std::isfinite(energy))
         outcome.rejection = "motion " + std::to_string(motion) + " nm";
+    else if (grows_wildly(energy_, energy, discretization_.parameters.membrane))
+        outcome.rejection =
+            "bending energy from " + std::to_string(energy_) + " to " + std::to_string(energy) + " pN nm";
     else
         outcome.contour = extract_contour(contour_fields(spaces, trial_), discretization_.parameters);
     return outcome;
@@ -61,6 +69,7 @@ void PaperScheme::keep(double /*time*/, double tau, const StepOutcome& outcome) 
     take_over(state_, std::move(trial_));
     control_.accept(tau, outcome.diagnostics.motion_max);
     moved_ += outcome.diagnostics.motion_max;
+    energy_ = outcome.diagnostics.bending_energy;
 }
 
 void PaperScheme::reject(double time, double /*tau*/) {
@@ -80,7 +89,8 @@ LayerIntegrals PaperScheme::integrate() const {
 
 void PaperScheme::write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
                                double time) const {
-    paper::write_fields(run_directory, times, time, discretization_.spaces, state_);
+    paper::write_fields(run_directory, times, time, discretization_.spaces, state_,
+                        discretization_.parameters.phase_field.paper);
 }
 
 double PaperScheme::unknowns() const {

@@ -29,12 +29,13 @@ class PaperScheme : public Scheme {
     [[nodiscard]] double cells() const override;
 
   private:
-    [[nodiscard]] StepOutcome present() const;
+    StepOutcome begin();
 
     Discretization discretization_;
     StepControl control_;
     State state_, trial_;
-    double moved_ = 0;  // since the mesh was made [nm]
+    double moved_ = 0;   // since the mesh was made [nm]
+    double energy_ = 0;  // bending energy of the present state [pN nm]
 };
 
 }  // namespace endoflow::phasefield::paper

@@ -14,8 +14,8 @@ void save_mesh_and_state(const std::filesystem::path& directory, Discretization&
 State load_mesh_and_state(const std::filesystem::path& directory, Discretization& discretization);
 
 /// The fields of scheme `paper`: velocity, pressure, lambda (the phase field's λ, half the sharp one), φ, membrane
-/// force g, moment β f, c, μ, s; collective.
+/// force g, moment β f (or f, where that is the unknown), c, μ, s; collective.
 void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times, double time,
-                  const Spaces& spaces, const State& state);
+                  const Spaces& spaces, const State& state, const PaperSchemeParameters& numerics);
 
 }  // namespace endoflow::phasefield::paper

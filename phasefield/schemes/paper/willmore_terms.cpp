@@ -39,16 +39,17 @@ void add_advection(const CoupledPoints& points, double w, LocalSystem& local) {
 
 /// (32): the membrane force −∫ g ∇φ_w·v. With w = 1 it and the force on ∇c balance to zero in total, as an energy that
 /// does not depend on the membrane's place demands; with w = 0 (as printed) the rest, of the order of the step, drives
-/// the flow.
-void add_membrane_force(const CoupledPoints& points, double w, LocalSystem& local) {
+/// the flow. `printed` is the sign in front of g ∇φ on the right: +1 in (20) and (32), −1 in Sec. 3.
+void add_membrane_force(const CoupledPoints& points, double w, double printed, LocalSystem& local) {
     const auto gradient = mixed_gradient(points, w, local);
     const auto& g = local.field(force).value;
     local.linear(u_r, Op::value, force, Op::value,
-                 at_points(points, [&](const auto& p, std::size_t q) { return -p.measure * gradient.r[q]; }));
+                 at_points(points, [&](const auto& p, std::size_t q) { return -printed * p.measure * gradient.r[q]; }));
     local.linear(u_z, Op::value, force, Op::value,
-                 at_points(points, [&](const auto& p, std::size_t q) { return -p.measure * gradient.z[q]; }));
+                 at_points(points, [&](const auto& p, std::size_t q) { return -printed * p.measure * gradient.z[q]; }));
     if (w == 0) return;
-    const auto change = at_points(points, [&](const auto& p, std::size_t q) { return -p.measure * w * g[q]; });
+    const auto change =
+        at_points(points, [&](const auto& p, std::size_t q) { return -printed * p.measure * w * g[q]; });
     local.jacobian(u_r, Op::value, phi, Op::dr, change);
     local.jacobian(u_z, Op::value, phi, Op::dz, change);
 }
@@ -56,14 +57,14 @@ void add_membrane_force(const CoupledPoints& points, double w, LocalSystem& loca
 /// (32): the force −∫ e ∇cⁿ·v of (20), e = (1 − w) e(φⁿ, mⁿ) + w e(φ, m).
 void add_concentration_force(const CoupledPoints& points, double w, double epsilon, LocalSystem& local) {
     const auto& now = local.field(phi).value;
-    const auto& m = local.field(moment).value;
+    const auto& unknown = local.field(moment).value;
     Coefficients value(points.size()), by_moment(points.size()), by_phi(points.size());
     for (std::size_t q = 0; q < points.size(); ++q) {
         const auto& p = points[q];
         const auto before = concentration_force(p.phi.value, p.moment, p.bending, epsilon);
-        const auto after = concentration_force(now[q], m[q], p.bending, epsilon);
+        const auto after = concentration_force(now[q], p.moment_per_unknown * unknown[q], p.bending, epsilon);
         value[q] = -p.measure * ((1 - w) * before.value + w * after.value);
-        by_moment[q] = -p.measure * w * after.moment;
+        by_moment[q] = -p.measure * w * after.moment * p.moment_per_unknown;
         by_phi[q] = -p.measure * w * after.phi;
     }
     const auto add = [&](unsigned int velocity, const auto& slope) {
@@ -119,32 +120,40 @@ void add_profile_relaxation(const CoupledPoints& points, const StepCoefficients&
                    }));
 }
 
-/// (36) tested with φ's functions θ:  ∫ g θ + a ( ∇m·∇θ + m F'(φ) θ/ε ) = 0 with m = β f.
-void add_membrane_force_definition(const CoupledPoints& points, double epsilon, LocalSystem& local) {
+/// (36) tested with φ's functions θ:  ∫ g θ + a ( ∇m·∇θ + m F'(φ) θ/ε ) = 0 with m = β f = w X, X being the unknown.
+void add_membrane_force_definition(const CoupledPoints& points, double epsilon, bool unknown_varies,
+                                   LocalSystem& local) {
     const auto& now = local.field(phi).value;
-    const auto& m = local.field(moment).value;
+    const auto& unknown = local.field(moment).value;
     const double a = energy_prefactor;
     const auto F = [&](const auto& p, std::size_t q) { return well_force(now[q], p.bending.curvature, epsilon); };
     local.linear(phi, Op::value, force, Op::value,
                  at_points(points, [](const auto& p, std::size_t) { return p.measure; }));
-    const auto stiffness = at_points(points, [&](const auto& p, std::size_t) { return p.measure * a; });
-    local.linear(phi, Op::dr, moment, Op::dr, stiffness);
-    local.linear(phi, Op::dz, moment, Op::dz, stiffness);
-    local.linear(phi, Op::value, moment, Op::value, at_points(points, [&](const auto& p, std::size_t q) {
-                     return p.measure * a / epsilon * F(p, q).phi;
-                 }));
+    const auto add = [&](Op test_op, Op trial_op, const auto& coefficient) {
+        local.linear(phi, test_op, moment, trial_op, at_points(points, [&](const auto& p, std::size_t q) {
+                         return p.measure * a * coefficient(p, q);
+                     }));
+    };
+    const auto w = [](const auto& p, std::size_t) { return p.moment_per_unknown; };
+    add(Op::dr, Op::dr, w);
+    add(Op::dz, Op::dz, w);
+    if (unknown_varies) {
+        add(Op::dr, Op::value, [](const auto& p, std::size_t) { return p.per_unknown_r; });
+        add(Op::dz, Op::value, [](const auto& p, std::size_t) { return p.per_unknown_z; });
+    }
+    add(Op::value, Op::value, [&](const auto& p, std::size_t q) { return w(p, q) * F(p, q).phi / epsilon; });
     local.jacobian(phi, Op::value, phi, Op::value, at_points(points, [&](const auto& p, std::size_t q) {
-                       return p.measure * a / epsilon * m[q] * F(p, q).phiphi;
+                       return p.measure * a / epsilon * w(p, q) * unknown[q] * F(p, q).phiphi;
                    }));
 }
 
-/// (37) tested with the moment's functions χ and scaled by a/ε:  (a/ε) ∫ m χ/β + ε ∇φ·∇χ + F(φ, c) χ = 0.
+/// (37) tested with the unknown's functions χ and scaled by a/ε:  (a/ε) ∫ w X χ/β + ε ∇φ·∇χ + F(φ, c) χ = 0.
 void add_moment_definition(const CoupledPoints& points, double epsilon, LocalSystem& local) {
     const auto& now = local.field(phi).value;
     const double a = energy_prefactor;
     const auto F = [&](const auto& p, std::size_t q) { return well_force(now[q], p.bending.curvature, epsilon); };
     local.linear(moment, Op::value, moment, Op::value, at_points(points, [&](const auto& p, std::size_t) {
-                     return p.measure * a / (epsilon * p.bending.stiffness);
+                     return p.measure * a * p.moment_per_unknown / (epsilon * p.bending.stiffness);
                  }));
     const auto stiffness = at_points(points, [&](const auto& p, std::size_t) { return p.measure * a; });
     local.linear(moment, Op::dr, phi, Op::dr, stiffness);
@@ -162,11 +171,12 @@ void add_moment_definition(const CoupledPoints& points, double epsilon, LocalSys
 void add_willmore_terms(const CoupledPoints& points, const StepCoefficients& step, LocalSystem& local) {
     const double epsilon = step.numerics.epsilon;
     add_advection(points, step.numerics.paper.advection_centering, local);
-    add_membrane_force(points, step.numerics.paper.force_centering, local);
+    add_membrane_force(points, step.numerics.paper.force_centering,
+                       step.numerics.paper.force_sign == ForceSign::plus ? 1 : -1, local);
     add_concentration_force(points, step.numerics.paper.force_centering, epsilon, local);
     add_phase_field_rate(points, step, local);
     if (step.numerics.paper.profile_mobility > 0) add_profile_relaxation(points, step, local);
-    add_membrane_force_definition(points, epsilon, local);
+    add_membrane_force_definition(points, epsilon, step.numerics.paper.bending_unknown == BendingUnknown::f, local);
     add_moment_definition(points, epsilon, local);
 }
 

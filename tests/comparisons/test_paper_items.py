@@ -1,0 +1,109 @@
+"""The paper's questions: what runs they ask for, and what they make of areas."""
+
+import unittest
+from pathlib import Path
+
+import locations  # noqa: F401
+import numpy as np
+import endoflow
+from comparisons.paper import attribution, mobility, printed, table2, timescale
+from comparisons.paper.item import NotRun
+from comparisons.studies.members import flat_parameters
+
+
+def run_with(area, time=(0.0, 0.5)):
+    """A run whose history has only times and areas."""
+    history = {"time_us": np.array(time), "membrane_area_nm2": np.array(area, dtype=float)}
+    return endoflow.Run(Path("."), {"events": {}, "exit_reason": "done"}, {}, history, [])
+
+
+class PrintedSettings(unittest.TestCase):
+    def test_the_standard_values_are_those_of_the_case_file(self):
+        self.assertEqual(printed.settings({}, False), {})
+        for symbol, value in printed.STANDARD.items():
+            self.assertEqual(printed.settings({symbol: value}, False), {}, symbol)
+
+    def test_one_epsilon_for_layer_and_coat_and_the_grid_goes_with_it(self):
+        thick = printed.settings({"ε": 2.4}, False)
+        wanted = {
+            "phase_field.epsilon": "2.4",
+            "molecules.interface_width": "2.4",
+            "phase_field.cell_size": "1.77",  # a square of the diameter 2.5 nm
+        }
+        self.assertEqual(thick, wanted)
+
+    def test_units_of_the_print(self):
+        self.assertEqual(printed.settings({"γ": 12.8}, False), {"phase_field.paper.mobility": "1.28e-05"})
+        self.assertEqual(printed.settings({"τ": 0.25}, False), {"phase_field.paper.max_step": "0.00025"})
+
+    def test_the_column_of_h_has_the_print_s_short_steps(self):
+        runs = {one.name: one.settings for one in table2.wanted(False)}
+        self.assertEqual(runs["h=0.63"], {"phase_field.cell_size": "0.45", "phase_field.paper.max_step": "0.0001"})
+        self.assertEqual(len({tuple(sorted(own.items())) for own in runs.values()}), 13, "three are one run")
+
+
+class Table2(unittest.TestCase):
+    def test_where_the_printed_column_of_epsilon_goes(self):
+        # By hand: areas 20 764, 21 867 and 22 700 nm² at 2.4, 1.7 and 1.2 nm.
+        limits = table2.printed_limits()
+        self.assertAlmostEqual(limits["two thinnest"], 22700 + 1.2 * 833.09 / 0.5, delta=1)
+        self.assertAlmostEqual(limits["line"], 24618, delta=10)
+        self.assertAlmostEqual(limits["parabola"], 24850, delta=20)
+
+    def test_changes_have_signs(self):
+        area = {(symbol, value): 100.0 for symbol, (_, entries) in table2.PAPER.items() for value, _ in entries}
+        area["ε", 2.4] = 90.0
+        row = next(r for r in table2.rows_of(area, 0.5) if (r["parameter"], r["printed_value"]) == ("ε", 2.4))
+        self.assertEqual((row["signed_change_percent"], row["change_percent"]), (-10, 10))
+
+
+class Attribution(unittest.TestCase):
+    def rows(self, areas):
+        """Rows of a ladder with these areas at 0.5 µs; None: not run."""
+        names = [rung.name for rung in (*attribution.RUNGS, attribution.PRODUCTION, attribution.LIMIT)]
+        self.assertEqual(len(areas), len(names))
+        runs = {
+            name: {"": NotRun("no time") if area is None else run_with((20106, area))}
+            for name, area in zip(names, areas)
+        }
+        return attribution.rows_of(runs, 0.5)
+
+    def test_changes_add_up_over_a_missing_rung(self):
+        areas = [22000, None, 23000, 23050, 23100, 23050, 24000, 24100, 24200, 24250, 24800, 24836]
+        rows = self.rows(areas)
+        self.assertEqual(rows[2]["change_nm2"], 1000, "the missing rung's change is in the next one's")
+        self.assertIn("no time", rows[1]["state"])
+        self.assertAlmostEqual(sum(row["change_nm2"] or 0 for row in rows), 2836)
+        self.assertIn("+2836.0", attribution.closure(rows)[0])
+        self.assertTrue(attribution.draw(rows).axes)
+
+    def test_it_says_when_it_does_not_close(self):
+        self.assertIn("does not close", attribution.closure(self.rows([None] + 11 * [24000]))[0])
+
+    def test_every_rung_changes_the_case_and_the_last_one_is_the_default_scheme(self):
+        runs = {one.name: one for one in attribution.wanted(False)}
+        self.assertEqual(runs["printed"].settings, {})
+        sizes = [len(runs[rung.name].settings) for rung in attribution.RUNGS]
+        self.assertEqual(sizes, sorted(set(sizes)), "each has all of those before it")
+        own = flat_parameters({"phase_field": {"paper": {"step_rule": "guarded"}}})
+        self.assertLessEqual(own.items(), runs["steps"].settings.items())
+
+
+class Mobility(unittest.TestCase):
+    def test_the_column_about_a_mobility(self):
+        # Area 1000 (1 + 0.01 log2(γ/γ0)): doubling γ adds one per cent of 1000 nm².
+        column = mobility.column_of(lambda x: 1000 * (1 + 0.01 * x / np.log10(2)), 6.4)
+        base = 1 + 0.01 * np.log2(1.6)
+        np.testing.assert_allclose(column, [100 * 0.01 * k / base for k in (3, 2, 1)], rtol=1e-12)
+
+
+class TimeScale(unittest.TestCase):
+    def test_the_time_of_an_area(self):
+        run = run_with((20000, 22000, 24000), (0.0, 0.1, 0.5))
+        self.assertAlmostEqual(timescale.time_of_area(run, 23000), 0.3)
+        self.assertEqual(timescale.time_of_area(run, 20000), 0.0)
+        self.assertIsNone(timescale.time_of_area(run, 25000))
+
+
+if __name__ == "__main__":
+    unittest.main()
