@@ -1,7 +1,8 @@
 """`endoflow reproduce ITEM [--quick|--full] [-o DIR] [--jobs N]`: the paper's figures and tables, ours beside them.
 
 ITEM is table2, fig3, fig4, fig5, fig6, fig7, figA2; mobility, attribution, timescale or inertia, which ask why ours differ;
-all; or of other papers hassinger2017, derenyi2002, juelicher1996, which are branches of stationary shapes and need seconds. The runs lie in DIR/runs and are shared by the items; each item writes DIR/ITEM with report.html, plots (PNG, SVG) and ITEM.csv, and DIR/index.html lists them. Exit codes: 0 done,
+all; or of other papers hassinger2017, derenyi2002, juelicher1996, which are branches of stationary shapes and need seconds. The runs lie in DIR/runs and are shared by the items; each item writes DIR/ITEM with report.html, plots (PNG, SVG) and ITEM.csv; DIR/index.html lists them,
+DIR/runs.csv the runs with state, CPU time and an estimate of what is left. Exit codes: 0 done,
 also when an engine refused a run: its item's page says so; 2 bad command line or parameter; 3 nothing ran; 4 input or output; 130 or
 143 interrupted (run it again to continue).
 """
@@ -35,6 +36,7 @@ def parsed(arguments):
         "--engine", choices=("boundary-integral", "phase-field", "both"), default="both", help="default: %(default)s"
     )
     parser.add_argument("--until", metavar="T", type=float, help="no run goes on longer than this, µs")
+    parser.add_argument("--pages-only", action="store_true", help="run nothing: write the pages from the runs there are")
     return parser.parse_args(arguments)
 
 
@@ -115,7 +117,9 @@ def loaded(members, outcomes):
     """{member name: endoflow.Run or item.NotRun}."""
     import endoflow
     from comparisons.paper.item import NotRun
-    from comparisons.studies.members import differing_parameters
+    from comparisons.studies.cost import expected_seconds
+    from comparisons.studies.members import differing_parameters, read_record
+    from comparisons.studies.progress import duration
 
     found = {}
     for name, member in members.items():
@@ -123,6 +127,10 @@ def loaded(members, outcomes):
             found[name] = member
             continue
         outcome = outcomes.get(name)
+        if outcome is None and read_record(member.directory) is None:
+            estimate = duration(expected_seconds(member, member.end))
+            found[name] = NotRun(f"not run yet, about {estimate} for one core")
+            continue
         try:
             run = endoflow.load(member.directory)
         except endoflow.EndoflowError as error:
@@ -174,16 +182,17 @@ def write_item(item, runs, options, output):
 
 def run(options):
     """Run the command; returns its exit code."""
-    from comparisons.paper import page  # with matplotlib, before the runs
+    from comparisons.paper import page, run_table  # with matplotlib, before the runs
     from comparisons.studies.member_runner import Interruption
     from comparisons.studies.members import Member
+    from comparisons.studies.sweep_table import write_table
 
     output = options.output or Path("out/paper")
     asked, members = study_members(options, output)
     with lock(output):
         with Interruption() as interruption:
             runnable = [member for member in members.values() if isinstance(member, Member)]
-            outcomes = run_members(runnable, options, interruption)
+            outcomes = {} if options.pages_only else run_members(runnable, options, interruption)
         if interruption.signal:
             print("endoflow reproduce: interrupted; the same command continues", file=sys.stderr)
             return 128 + interruption.signal
@@ -193,6 +202,7 @@ def run(options):
         for item in chosen(options):
             result = write_item(item, runs_of(item, asked, found), options, output)
             print("\n".join(page.summary_lines(item, result, output / item)))
+        write_table(output / "runs.csv", run_table.rows(members))
         write_text(output / "index.html", page.index_html(output))
         print(f"pages   {output / 'index.html'}")
     return RUN_FAILED if found and len(not_run(found)) == len(found) else 0

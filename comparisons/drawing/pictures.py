@@ -17,8 +17,8 @@ from endoflow.curves import arc_length  # noqa: E402
 #: Distance of arrows along the membrane, and of those in the fluid, nm.
 ARROW_SPACING, FLUID_SPACING = 8.0, 9.0
 
-#: A panel: title; Shape, or a sentence saying why there is none; arrows (r, z, u_r, u_z) or None.
-Panel = namedtuple("Panel", "title shape arrows", defaults=(None,))
+#: A panel: title; Shape, or a sentence saying why there is none; arrows (r, z, u_r, u_z) or None; another Shape for a thin line, or None.
+Panel = namedtuple("Panel", "title shape arrows other", defaults=(None, None))
 
 #: Letters in a line of a panel's sentence.
 WRAP = 34
@@ -59,6 +59,8 @@ def gallery(rows, margin=7.0):
             coloured = draw_membrane(axes, panel.shape, z_range, rim, line_width=2.2)
             if panel.arrows is not None:
                 draw_arrows(axes, *panel.arrows)
+            if panel.other is not None:
+                draw_line(axes, panel.other)
     if coloured is not None:
         bar = figure.colorbar(coloured, ax=grid, label="concentration c", shrink=0.9, aspect=20, pad=0.02)
         bar.outline.set_visible(False)
@@ -87,6 +89,12 @@ def draw_membrane(axes, shape, z_range, rim, line_width=3.0):
     axes.set_facecolor(style.CYTOPLASM)
     axes.grid(False)
     return lines
+
+
+def draw_line(axes, shape):
+    """A membrane as a thin dashed line, both half-planes."""
+    for side in (-1, 1):
+        axes.plot(side * shape.r, shape.z, color=ARROW, linewidth=0.9, linestyle=(0, (3, 2)), zorder=4)
 
 
 def arrow_length(speed, fastest):

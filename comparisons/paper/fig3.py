@@ -90,7 +90,7 @@ def result(runs, quick):
     ]
     names = history_names(TRANSPORTS, engines)
     figures = {
-        "fig3": ("Membranes coloured by c", snapshots(runs, TIMES, TRANSPORTS)),
+        "fig3": ("Membranes coloured by c; dashed over the layer: the sharp membrane", snapshots(runs, TIMES, TRANSPORTS)),
         "fig3_histories": ("Neck radius and height", history_figure(runs, names)),
     }
     return Result(rows, figures, printed, remarks)

@@ -6,7 +6,7 @@ from comparisons.drawing.pictures import Panel, gallery
 from . import patch_sweep
 from .item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, is_run, last_time, not_run_remarks, quick_remark
 from .patch_sweep import STATIONARY, name_of
-from .snapshots import ended_because
+from .snapshots import ended_because, sharp_of, with_line
 
 TITLE = "Fig. 5: stationary shapes by patch radius"
 
@@ -16,20 +16,21 @@ PER_ROW = 6
 wanted = patch_sweep.wanted
 
 
-def panel(radius, run):
-    """The Panel of a run."""
+def panel(radius, run, sharp=None):
+    """The Panel of a run; sharp: the run of the sharp engine, for a dashed line, or None."""
     title = f"r_c = {radius} nm"
     if not is_run(run):
         return Panel(title, f"not run: {run.reason}")
     time = min(STATIONARY, last_time(run))
     if time < STATIONARY:
         title += f", {time:.3g} µs" + ended_because(run).replace("\n", " ")
-    return Panel(title, run.shape_at(time))
+    return with_line(Panel(title, run.shape_at(time)), sharp, time)
 
 
 def panels_of(runs, engine):
     """Rows of panels of an engine."""
-    panels = [panel(r, runs[name_of(r)][engine]) for r in sorted(patch_sweep.RADII) if engine in runs[name_of(r)]]
+    of_radii = {r: runs[name_of(r)] for r in sorted(patch_sweep.RADII)}
+    panels = [panel(r, own[engine], sharp_of(own, engine)) for r, own in of_radii.items() if engine in own]
     return [(style.ENGINE_NAMES[engine], panels[i : i + PER_ROW]) for i in range(0, len(panels), PER_ROW)]
 
 
@@ -76,5 +77,6 @@ def result(runs, quick):
     for engine, name in ((BOUNDARY_INTEGRAL, "fig5"), (PHASE_FIELD, "fig5_phase_field")):
         if engine in engines:
             title = f"Shapes at {STATIONARY:g} µs or at the run's end, {style.ENGINE_NAMES[engine]}"
+            title += "; dashed: the sharp membrane" if engine == PHASE_FIELD else ""
             figures[name] = (title, gallery(panels_of(runs, engine)))
     return Result(rows, figures, printed, remarks)

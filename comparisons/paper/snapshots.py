@@ -3,18 +3,31 @@
 from comparisons.drawing import style
 from comparisons.drawing.pictures import Panel, fluid_arrows, gallery, membrane_arrows
 
-from .item import NECK_CLOSED, end_of, is_run, last_time
+from .item import BOUNDARY_INTEGRAL, NECK_CLOSED, end_of, is_run, last_time
 
 #: Room (nm) around the membranes in pictures that show the fluid.
 FLUID_MARGIN = 30.0
 
 
-def panels_at(found, times, draw):
-    """Panels of a run at some times (µs); draw(run, time) makes one."""
+def panels_at(found, times, draw, sharp=None):
+    """Panels of a run at some times (µs); draw(run, time) makes one. sharp: a run whose membrane is drawn over it, or None."""
     if not is_run(found):
         return [Panel(f"t = {time:.4g} µs", f"not run: {found.reason}") for time in times]
     reached = last_time(found) * (1 + 1e-12)
-    return [draw(found, time) if time <= reached else after_the_end(found, time) for time in times]
+    panels = [draw(found, time) if time <= reached else after_the_end(found, time) for time in times]
+    return [with_line(panel, sharp, time) for panel, time in zip(panels, times)]
+
+
+def with_line(panel, sharp, time):
+    """The panel with another run's membrane at a time (µs) as a line, if there is such a run and it went on so long."""
+    if sharp is None or not is_run(sharp) or time > last_time(sharp) * (1 + 1e-12):
+        return panel
+    return panel._replace(other=sharp.shape_at(time))
+
+
+def sharp_of(engines, engine):
+    """The sharp engine's run of {engine: run} beside another engine's; None for its own."""
+    return None if engine == BOUNDARY_INTEGRAL else engines.get(BOUNDARY_INTEGRAL)
 
 
 def after_the_end(run, time):
@@ -52,9 +65,12 @@ def ended_because(run):
 
 
 def snapshots(runs, times, names, draw=membrane):
-    """Figure with a row for each engine and run (names: {run name: title}) at times (µs); rows without any shape are left out."""
+    """Figure with a row for each engine and run (names: {run name: title}) at times (µs); rows without any shape are left out.
+
+    Over the layer the sharp membrane is drawn as a dashed line.
+    """
     rows = [
-        (f"{title}\n{style.ENGINE_NAMES[engine]}", panels_at(found, times, draw))
+        (f"{title}\n{style.ENGINE_NAMES[engine]}", panels_at(found, times, draw, sharp_of(runs[name], engine)))
         for name, title in names.items()
         for engine, found in runs[name].items()
     ]

@@ -128,6 +128,19 @@ class Reproduce(StudyTest):
             self.assertIn("The paper beside this", self.page(item))
             self.assertTrue((self.scratch / f"p/{item}/{item}.png").exists(), item)
 
+    def test_pages_of_the_runs_there_are(self):
+        process = self.reproduce("fig7", "--engine", "boundary-integral", "--until", "1", "--pages-only")
+        self.assertEqual((process.returncode, self.runs()), (3, []))
+        self.assertIn("not run yet, about", process.stderr)
+        self.reproduce("figA2", "--until", "1")
+        process = self.reproduce("figA2", "fig7", "--engine", "boundary-integral", "--until", "1", "--pages-only")
+        self.assertEqual(process.returncode, 0)
+        with open(self.scratch / "p/runs.csv", newline="", encoding="utf-8") as file:
+            rows = {row["run"]: row for row in csv.DictReader(file)}
+        self.assertEqual(rows["standard/boundary-integral"]["left_s"], "0")
+        self.assertEqual(rows["standard,patch_radius=60/boundary-integral"]["state"], "not run")
+        self.assertGreater(float(rows["standard,patch_radius=60/boundary-integral"]["left_s"]), 0)
+
     def test_relative_changes_of_table2(self):
         self.reproduce("table2", "--quick")
         rows = {(row["parameter"], row["printed_value"]): row for row in self.rows("table2")}
