@@ -49,11 +49,12 @@ void write_fields(const std::filesystem::path& run_directory, std::vector<double
     using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
     std::vector<Interpretation> meaning(n_flow_components, dealii::DataComponentInterpretation::component_is_scalar);
     meaning[u_r] = meaning[u_z] = dealii::DataComponentInterpretation::component_is_part_of_vector;
+    const std::string bending = numerics.bending_unknown == BendingUnknown::f ? "f" : "bending_moment";
     dealii::DataOut<2> data;
-    data.add_data_vector(spaces.flow.dofs, state.flow,
-                         std::vector<std::string>{"velocity", "velocity", "pressure", "lambda", "phi", "membrane_force",
-                                                  numerics.bending_unknown == BendingUnknown::f ? "f" : "bending_moment"},
-                         meaning);
+    data.add_data_vector(
+        spaces.flow.dofs, state.flow,
+        std::vector<std::string>{"velocity", "velocity", "pressure", "lambda", "phi", "membrane_force", bending},
+        meaning);
     data.add_data_vector(spaces.molecules.dofs, state.molecules, std::vector<std::string>{"c", "chemical_potential"});
     data.add_data_vector(spaces.stretching.dofs, state.stretching, "stretching");
     data.build_patches(std::max(spaces.flow.degrees[phi], 1u));
