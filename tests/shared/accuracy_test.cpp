@@ -69,6 +69,18 @@ TEST_CASE("beyond its limit a quantity stops the run under its own name") {
     }
 }
 
+TEST_CASE("a membrane that stretches freely need not grow by what flows in") {
+    const auto grows_by_itself = [](const Parameters& p) {
+        const TemporaryDirectory directory;
+        RunOutput output(p, sharp_engine(), directory.path() / "run", StartMode::fresh);
+        output.record_step(row_at(0.1, {0, 0, 0, 0.98}));
+    };
+    Parameters stretches;
+    stretches.membrane.inextensible = false;
+    CHECK_NOTHROW(grows_by_itself(stretches));
+    CHECK_THROWS_AS(grows_by_itself(Parameters{}), SolverError);
+}
+
 TEST_CASE("drifts count from the first row, residuals of the energy law add up over time") {
     const AccuracyWatch watch(Parameters{},
                               {.name = "phase-field",
