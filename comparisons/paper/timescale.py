@@ -19,6 +19,9 @@ TITLE = "Time scale: readings of the print in the sharp model"
 
 AREA = "membrane_area_nm2"
 
+#: Times (µs) that the figure shows.
+SHOWN = (0.003, 4.0)
+
 #: γ of Sec. 4.3 in nm²/(pN µs) if the energy unit is 1 pN nm, and if it is that of the print's round numbers,
 #: ρL⁵/T² = 0.1024 pN nm with L = 40 nm, T = 1 µs, ρ = 1000 kg/m³. A layer of 1.2 nm moves with 3ε/(2√2) γ times the force.
 MOBILITIES = (4.2, 4.2 / 0.1024)
@@ -137,11 +140,11 @@ def draw(runs):
     figure, axes = plt.subplots(figsize=(7.6, 4.4), layout="constrained")
     for place, reading in enumerate(r for r in READINGS if r.case == "standard"):
         run = next(iter(runs[reading.name].values()), None)
-        if run is None or not is_run(run):
+        if run is None or not is_run(run) or run.history["time_us"][-1] < SHOWN[0]:
             continue
         look = {"color": COLOURS[place % len(COLOURS)], "linestyle": ("-", "--", ":")[place // len(COLOURS)]}
         axes.plot(run.history["time_us"], 1e-3 * run.history[AREA], label=reading.name, **look)
     axes.plot(TIME, 1e-3 * PAPER_AREA, "*", color="#333333", markersize=13, label="paper", zorder=5)
-    axes.set(xscale="log", xlim=(0.003, 4), ylim=(20, 27), xlabel="time (µs)", ylabel="membrane area (10³ nm²)")
+    axes.set(xscale="log", xlim=SHOWN, ylim=(20, 27), xlabel="time (µs)", ylabel="membrane area (10³ nm²)")
     axes.legend(fontsize=8, ncols=2)
     return figure
