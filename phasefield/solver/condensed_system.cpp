@@ -138,7 +138,7 @@ void CondensedSystem::add(const Cell& cell, const dealii::Vector<double>& right_
 void CondensedSystem::solve(const Space& space, Vector& solution) {
     if (dealii::Utilities::MPI::max(undetermined_ ? 1 : 0, space.dofs.get_communicator()) == 1)
         throw SolverError("linear-solver", "the unknowns inside of a cell of the " + name_ + " system are undetermined",
-                          "use a smaller time.tolerance or phase_field.cell_size");
+                          "use a smaller time.max_step or phase_field.cell_size");
     system_.solve();
     expand(space, solution);
 }

@@ -124,7 +124,7 @@ void LinearSystem::apply_factors(const dealii::AffineConstraints<double>& constr
     check(PCApply(preconditioner, right_hand_side, solution_), name_);
     if (!std::isfinite(solution_.l2_norm()))
         throw SolverError("not-a-number", "the solution of the " + name_ + " system is not finite",
-                          "use a smaller time.tolerance or phase_field.cell_size");
+                          "use a smaller time.max_step or phase_field.cell_size");
     hand_out(constraints, solution);
 }
 

@@ -69,7 +69,8 @@ class FactorsOf final : public MumpsFactors {
     unsigned int size_, kept_;
     std::vector<double> row_scale_, column_scale_;
     std::vector<int> rows_, columns_, kept_unknowns_;  // from 1
-    std::vector<Real> values_;                         // of the scaled matrix
+    std::vector<double> entries_;                      // of the matrix
+    std::vector<Real> values_;                         // of the scaled one
     std::vector<Real> left_, reduced_, work_;
 };
 
@@ -83,10 +84,12 @@ FactorsOf<Data>::FactorsOf(const dealii::SparsityPattern& pattern, unsigned int 
       left_(static_cast<std::size_t>(kept) * kept),
       reduced_(kept),
       work_(size_) {
-    for (const auto& entry : pattern) {
-        rows_.push_back(static_cast<int>(entry.row()) + 1);
-        columns_.push_back(static_cast<int>(entry.column()) + 1);
-    }
+    for (unsigned int row = 0; row < size_; ++row)  // an entry itself would search for its row
+        for (auto entry = pattern.begin(row); entry != pattern.end(row); ++entry) {
+            rows_.push_back(static_cast<int>(row) + 1);
+            columns_.push_back(static_cast<int>(entry->column()) + 1);
+        }
+    entries_.resize(rows_.size());
     values_.resize(rows_.size());
     std::iota(kept_unknowns_.begin(), kept_unknowns_.end(), static_cast<int>(size_ - kept) + 1);
     auto& id = handle_.id;
@@ -114,18 +117,21 @@ FactorsOf<Data>::FactorsOf(const dealii::SparsityPattern& pattern, unsigned int 
 template <class Data>
 void FactorsOf<Data>::scale(const dealii::SparseMatrix<double>& matrix) {
     const auto invert = [](double largest) { return largest > 0 ? 1 / largest : 1; };
+    const auto in_row = [this](std::size_t k) { return static_cast<std::size_t>(rows_[k] - 1); };
+    const auto in_column = [this](std::size_t k) { return static_cast<std::size_t>(columns_[k] - 1); };
+    std::size_t next = 0;
+    for (const auto& entry : matrix) entries_[next++] = entry.value();
     std::fill(row_scale_.begin(), row_scale_.end(), 0);
-    for (const auto& entry : matrix)
-        row_scale_[entry.row()] = std::max(row_scale_[entry.row()], std::abs(entry.value()));
+    for (std::size_t k = 0; k < next; ++k)
+        row_scale_[in_row(k)] = std::max(row_scale_[in_row(k)], std::abs(entries_[k]));
     std::transform(row_scale_.begin(), row_scale_.end(), row_scale_.begin(), invert);
     std::fill(column_scale_.begin(), column_scale_.end(), 0);
-    for (const auto& entry : matrix)
-        column_scale_[entry.column()] =
-            std::max(column_scale_[entry.column()], std::abs(entry.value()) * row_scale_[entry.row()]);
+    for (std::size_t k = 0; k < next; ++k) {
+        entries_[k] *= row_scale_[in_row(k)];
+        column_scale_[in_column(k)] = std::max(column_scale_[in_column(k)], std::abs(entries_[k]));
+    }
     std::transform(column_scale_.begin(), column_scale_.end(), column_scale_.begin(), invert);
-    std::size_t next = 0;
-    for (const auto& entry : matrix)
-        values_[next++] = static_cast<Real>(entry.value() * row_scale_[entry.row()] * column_scale_[entry.column()]);
+    for (std::size_t k = 0; k < next; ++k) values_[k] = static_cast<Real>(entries_[k] * column_scale_[in_column(k)]);
 }
 
 template <class Data>

@@ -113,7 +113,7 @@ bool SubdomainSystem::everywhere(bool own) const {
 void SubdomainSystem::require_finite(const dealii::Vector<double>& vector, const char* what) const {
     if (!everywhere(vector.size() == 0 || std::isfinite(vector.l2_norm())))
         throw SolverError("not-a-number", std::string("the ") + what + " of the " + name_ + " system is not finite",
-                          "use a smaller time.tolerance or phase_field.cell_size");
+                          "use a smaller time.max_step or phase_field.cell_size");
 }
 
 void SubdomainSystem::require_solved(bool own) const {
