@@ -26,6 +26,17 @@ Number& part(AtPoint<Number>& at, std::size_t which) {
     return which == 0 ? at.value : which == 1 ? at.r : at.z;
 }
 
+/// Stiffer at high curvatures and where there are molecules.
+struct StiffeningTerm {
+    double strength;
+
+    template <class Number>
+    [[nodiscard]] Number density(const LocalShape<Number>& x) const {
+        const Number squared = x.curvature * x.curvature;
+        return strength * (1.0 + x.concentration) * squared * squared;
+    }
+};
+
 /// A point in the middle of the layer, |∇ψ| ≠ 1, nothing zero.
 Fields<double> some_point() {
     Fields<double> x;
@@ -85,7 +96,7 @@ double change_of_stretch(const Parameters& p, double psi, double motion) {
         x[distance] = {-z, 0, -1};
         x[velocity_z].value = motion / tau;
         x[membrane_stretch].value = 1;
-        return point_equations(x, 7.0, past, {}, step, BendingModel(p.membrane))[membrane_stretch];
+        return point_equations(x, 7.0, past, {}, step, LayerEnergy(p))[membrane_stretch];
     };
     constexpr double h = 1e-4;
     const double divergence = (row(-psi + h).z - row(-psi - h).z) / (2 * h);
@@ -103,7 +114,7 @@ TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
             p.molecules.transport = transport;
             p.phase_field.production.profile_relaxation = p.molecules.mobility =
                 p.phase_field.production.stretching_alignment = 10;
-            const BendingModel model(p.membrane);
+            const LayerEnergy energy(p);
             PointPast past;
             past.thickness = {p.phase_field.epsilon, 0.05, -0.08};
             past.normal = past.molecules_normal = {0.5, 0.6};
@@ -118,14 +129,14 @@ TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
                 variable.value = part(xk[k / 3], k % 3);
                 variable.partial[k] = 1;
             }
-            auto rows = point_equations(seeded, 7.0, past, change, numbers(p), model);
+            auto rows = point_equations(seeded, 7.0, past, change, numbers(p), energy);
             constexpr double step = 1e-5;
             for (std::size_t k = 0; k < n_features; ++k) {
                 auto up = x, down = x;
                 part(up[k / 3], k % 3) += step;
                 part(down[k / 3], k % 3) -= step;
-                auto above = point_equations(up, 7.0, past, change, numbers(p), model),
-                     below = point_equations(down, 7.0, past, change, numbers(p), model);
+                auto above = point_equations(up, 7.0, past, change, numbers(p), energy),
+                     below = point_equations(down, 7.0, past, change, numbers(p), energy);
                 for (std::size_t i = 0; i < n_features; ++i) {
                     const double difference = (part(above[i / 3], i % 3) - part(below[i / 3], i % 3)) / (2 * step);
                     // Central differences: step² times third derivatives of order 1e3, and round-off over the step.
@@ -136,42 +147,44 @@ TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
 }
 
 TEST_CASE("forces are the variation of the energy", "[production]") {
-    Parameters p;
-    const BendingModel model(p.membrane);
-    const double epsilon = p.phase_field.epsilon,
-                 compliance = moment_alignment * epsilon * epsilon / model.stiffness(0).value;
-    const PointThickness thickness{epsilon, 0.05, -0.08};
-    // The integrand of the two-field energy that add_bending() documents.
-    const auto energy = [&](const Fields<double>& x) {
-        const auto &psi = x[distance], &b = x[Field::moment];
-        const auto layer = layer_profile(psi.value, epsilon);
-        const auto weight = energy_weight(layer, psi.value, epsilon);
-        const auto m = stiffness_of(x[molecule_density].value, model);
-        const double squared = psi.r * psi.r + psi.z * psi.z;
-        return weight.value * (m.curvature * b.value - 0.5 * b.value * b.value / m.beta - psi.r * b.r - psi.z * b.z) -
-               0.5 * weight.first * (1 + squared) * b.value -
-               weight.thickness * b.value * (thickness.r * psi.r + thickness.z * psi.z) -
-               0.5 * compliance * weight.value * std::pow(psi.r * b.r + psi.z * b.z, 2) -
-               0.5 * moment_floor * epsilon / model.stiffness(0).value * (b.r * b.r + b.z * b.z);
-    };
-    auto x = some_point();
-    x[normal_force] = {};  // its own terms are not the energy's
-    PointPast past;
-    past.thickness = thickness;
-    past.normal = past.molecules_normal = {0.6, 0.8};
-    auto rows = point_equations(x, 7.0, past, {}, numbers(p), model);
-    for (const Field field : {distance, Field::moment})
-        for (std::size_t k = 0; k < 3; ++k) {
-            constexpr double step = 1e-5;
-            auto up = x, down = x;
-            part(up[field], k) += step;
-            part(down[field], k) -= step;
-            // Rows are written with the sign of the other side.
-            const double derivative = (energy(up) - energy(down)) / (2 * step);
-            const double row = part(rows[field == distance ? normal_force : Field::moment], k);
-            // step² times third derivatives of order 10, and round-off over the step.
-            CHECK(-row == Approx(derivative).epsilon(1e-7).margin(1e-8));
-        }
+    // An energy is what its terms say: the equations follow a term that they have never heard of.
+    const Parameters p;
+    for (const MembraneEnergy& membrane : {membrane_energy(p), membrane_energy(p).add(StiffeningTerm{40})}) {
+        const LayerEnergy energy(membrane);
+        const double epsilon = p.phase_field.epsilon;
+        const PointThickness thickness{epsilon, 0.05, -0.08};
+        // The integrand of the two-field energy that add_bending() documents.
+        const auto integrand = [&](const Fields<double>& x) {
+            const auto &psi = x[distance], &b = x[Field::moment];
+            const auto layer = layer_profile(psi.value, epsilon);
+            const auto weight = energy_weight(layer, psi.value, epsilon);
+            const double conjugate = membrane.conjugate(-b.value, x[molecule_density].value, 0).value;
+            const double squared = psi.r * psi.r + psi.z * psi.z;
+            return weight.value * (-conjugate - psi.r * b.r - psi.z * b.z) -
+                   0.5 * weight.first * (1 + squared) * b.value -
+                   weight.thickness * b.value * (thickness.r * psi.r + thickness.z * psi.z) -
+                   0.5 * energy.compliance(epsilon) * weight.value * std::pow(psi.r * b.r + psi.z * b.z, 2) -
+                   0.5 * energy.smoothing(epsilon) * (b.r * b.r + b.z * b.z);
+        };
+        auto x = some_point();
+        x[normal_force] = {};  // its own terms are not the energy's
+        PointPast past;
+        past.thickness = thickness;
+        past.normal = past.molecules_normal = {0.6, 0.8};
+        auto rows = point_equations(x, 7.0, past, {}, numbers(p), energy);
+        for (const Field field : {distance, Field::moment})
+            for (std::size_t k = 0; k < 3; ++k) {
+                constexpr double step = 1e-5;
+                auto up = x, down = x;
+                part(up[field], k) += step;
+                part(down[field], k) -= step;
+                // Rows are written with the sign of the other side.
+                const double derivative = (integrand(up) - integrand(down)) / (2 * step);
+                const double row = part(rows[field == distance ? normal_force : Field::moment], k);
+                // step² times third derivatives of order 10, and round-off over the step.
+                CHECK(-row == Approx(derivative).epsilon(1e-7).margin(1e-8));
+            }
+    }
 }
 
 TEST_CASE("what keeps G constant along the normal exerts no net force", "[production]") {
@@ -185,7 +198,7 @@ TEST_CASE("what keeps G constant along the normal exerts no net force", "[produc
     past.normal = past.molecules_normal = {0.6, -0.8};
     const double chi_r = 2e-5, chi_z = 3e-5;  // so small that the force does not fade: by 4e-8 of itself
     const GradientChange change{0, past.normal.r * chi_r + past.normal.z * chi_z};
-    const auto rows = point_equations(x, 7.0, past, change, numbers(p), BendingModel(p.membrane));
+    const auto rows = point_equations(x, 7.0, past, change, numbers(p), LayerEnergy(p));
     const auto& own = rows[normal_force];
     const double aligned = own.r * chi_r + own.z * chi_z, force = own.value * x[distance].z + aligned;
     CHECK(std::abs(aligned) > 1e-5);

@@ -89,7 +89,7 @@ TEST_CASE("what flows along a layer that thins stays what it is", "[thickness]")
     // 0.05.
     const Parameters p;
     const StepNumbers step = step_numbers(p, 0, 0);
-    const BendingModel model(p.membrane);
+    const LayerEnergy energy(p);
     const double slope = 0.1, speed = 50, far = 100;
     const auto row = [&](double r, double z) {
         PointPast past;
@@ -99,7 +99,7 @@ TEST_CASE("what flows along a layer that thins stays what it is", "[thickness]")
         x[distance] = {-z, 0, -1};
         x[velocity_r].value = speed;
         x[membrane_stretch].value = 1;
-        return point_equations(x, r, past, {}, step, model)[membrane_stretch];
+        return point_equations(x, r, past, {}, step, energy)[membrane_stretch];
     };
     constexpr double h = 1e-4;
     for (const double z : {-1.5, -0.7, 0.2, 0.9, 1.6}) {

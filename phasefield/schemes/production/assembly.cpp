@@ -34,15 +34,15 @@ Fields<Number> fields_from(const PointValues& values) {
 
 }  // namespace
 
-EquationPattern::EquationPattern(const Parameters& p, const BendingModel& model) {
+EquationPattern::EquationPattern(const Parameters& p, const LayerEnergy& energy) {
     // Values without special meaning: everything that can depend on something does.
     PointValues values;
     for (unsigned int f = 0; f < n_fields; ++f) values[f] = {0.31 + 0.05 * f, 0.27 + 0.03 * f, 0.41 - 0.02 * f};
     PointPast past;
     past.normal = past.molecules_normal = {0.6, 0.8};
     past.thickness = {p.phase_field.epsilon, 0.01, 0.02};
-    const auto rows = point_equations(fields_from<FeatureDual>(values), 3.0, past, {0.3, 0.2},
-                                      {1.0, p.phase_field, p.fluid, p.molecules, {}, scheme_rates(p)}, model);
+    const auto rows =
+        point_equations(fields_from<FeatureDual>(values), 3.0, past, {0.3, 0.2}, StepNumbers(p, {}, 1.0), energy);
     for (unsigned int row = 0; row < n_features; ++row)
         for (unsigned int column = 0; column < n_features; ++column)
             if (feature(rows[row / 3], row % 3).partial[column] != 0) entries.push_back({row, column});
@@ -57,11 +57,11 @@ namespace {
 /// The equations at the quadrature points of one cell after the other.
 class CellEquations {
   public:
-    CellEquations(const Space& space, const BendingModel& model, const StepNumbers& step, const StepPast& history,
+    CellEquations(const Space& space, const LayerEnergy& energy, const StepNumbers& step, const StepPast& history,
                   const Vector& iterate)
         : quadrature(gauss_points(step.numerics)),
           local(space, quadrature, distance),
-          model_(&model),
+          energy_(&energy),
           step_(&step),
           iterate_(&iterate),
           history_(&history),
@@ -83,7 +83,7 @@ class CellEquations {
                 values[f] = {local.field(f).value[q], local.field(f).r[q], local.field(f).z[q]};
             const Direction& n = past[q].normal;
             const GradientChange change{n.r * psi.rr[q] + n.z * psi.rz[q], n.r * psi.rz[q] + n.z * psi.zz[q]};
-            auto rows = point_equations(fields_from<Number>(values), r, past[q], change, *step_, *model_);
+            auto rows = point_equations(fields_from<Number>(values), r, past[q], change, *step_, *energy_);
             if (manufactured)
                 take_off(manufactured(r, box.z0 + box.hz * quadrature.point(q)[1]), r, past[q], change, rows);
             visit(q, quadrature.weight(q) * box.hr * box.hz * r, rows);
@@ -97,7 +97,7 @@ class CellEquations {
     template <class Number>
     void take_off(const PointValues& solution, double r, const PointPast& past, const GradientChange& change,
                   Fields<Number>& rows) const {
-        const auto own = point_equations(fields_from<double>(solution), r, past, change, *step_, *model_);
+        const auto own = point_equations(fields_from<double>(solution), r, past, change, *step_, *energy_);
         for (unsigned int f = 0; f < n_fields; ++f) {
             rows[f].value = rows[f].value - own[f].value;
             rows[f].r = rows[f].r - own[f].r;
@@ -105,7 +105,7 @@ class CellEquations {
         }
     }
 
-    const BendingModel* model_;
+    const LayerEnergy* energy_;
     const StepNumbers* step_;
     const Vector* iterate_;
     const StepPast* history_;
@@ -157,22 +157,22 @@ void assemble_cells(const Space& space, const EquationPattern& pattern, CellEqua
 
 }  // namespace
 
-void assemble(const Space& space, const EquationPattern& pattern, const BendingModel& model, const StepNumbers& step,
+void assemble(const Space& space, const EquationPattern& pattern, const LayerEnergy& energy, const StepNumbers& step,
               const StepPast& history, const Vector& iterate, CondensedSystem& system) {
     system.start();
-    assemble_cells<FeatureDual>(space, pattern, CellEquations(space, model, step, history, iterate), system);
+    assemble_cells<FeatureDual>(space, pattern, CellEquations(space, energy, step, history, iterate), system);
 }
 
-void assemble_residual(const Space& space, const EquationPattern& pattern, const BendingModel& model,
+void assemble_residual(const Space& space, const EquationPattern& pattern, const LayerEnergy& energy,
                        const StepNumbers& step, const StepPast& history, const Vector& iterate,
                        CondensedSystem& system) {
     system.start_right_hand_side();
-    assemble_cells<double>(space, pattern, CellEquations(space, model, step, history, iterate), system);
+    assemble_cells<double>(space, pattern, CellEquations(space, energy, step, history, iterate), system);
 }
 
-double net_vertical_force(const Space& space, const BendingModel& model, const StepNumbers& step,
+double net_vertical_force(const Space& space, const LayerEnergy& energy, const StepNumbers& step,
                           const StepPast& history, const Vector& solution) {
-    CellEquations equations(space, model, step, history, solution);
+    CellEquations equations(space, energy, step, history, solution);
     double sum = 0;
     for (const auto& cell : space.dofs.active_cell_iterators())
         if (cell->is_locally_owned())

@@ -11,7 +11,7 @@ namespace endoflow::phasefield::production {
 /// Which rows contain which fields, found by differentiating the equations once.
 class EquationPattern {
   public:
-    EquationPattern(const Parameters& parameters, const BendingModel& model);
+    EquationPattern(const Parameters& parameters, const LayerEnergy& energy);
     struct Entry {
         unsigned int row, column;  // 3 × field + {value, ∂r, ∂z}
     };
@@ -19,16 +19,16 @@ class EquationPattern {
 };
 
 /// Jacobian and −residual of the coupled equations at `iterate` into `system`.
-void assemble(const Space& space, const EquationPattern& pattern, const BendingModel& model, const StepNumbers& step,
+void assemble(const Space& space, const EquationPattern& pattern, const LayerEnergy& energy, const StepNumbers& step,
               const StepPast& history, const Vector& iterate, CondensedSystem& system);
 
 /// −residual alone; the Jacobian stays what it was.
-void assemble_residual(const Space& space, const EquationPattern& pattern, const BendingModel& model,
+void assemble_residual(const Space& space, const EquationPattern& pattern, const LayerEnergy& energy,
                        const StepNumbers& step, const StepPast& history, const Vector& iterate,
                        CondensedSystem& system);
 
 /// The membrane's net vertical force on the fluid [pN]: it balances what the pinned rim exerts. Collective.
-double net_vertical_force(const Space& space, const BendingModel& model, const StepNumbers& step,
+double net_vertical_force(const Space& space, const LayerEnergy& energy, const StepNumbers& step,
                           const StepPast& history, const Vector& solution);
 
 /// Gauss points per direction.

@@ -12,7 +12,7 @@
 
 namespace endoflow::phasefield::production {
 
-SolutionMeasures measure_solution(const Space& space, const BendingModel& model, const StepNumbers& step,
+SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy, const StepNumbers& step,
                                   const Vector& before, const Vector& predicted, const Vector& rate,
                                   const Vector& solution) {
     const auto& numerics = step.numerics;
@@ -45,8 +45,7 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
             const double gradient = std::hypot(psi.r[q], psi.z[q]), density = membrane_density(layer, step.weight);
             const auto sheet = sheet_gradient(distance_here, thickness);
             const double length = std::hypot(sheet.r, sheet.z, gradient_floor);
-            const auto bending = stiffness_of(c.value[q], model);
-            const double K = b.value[q] / bending.beta;
+            const auto elastic = elastic_state_at(energy, b.value[q], c.value[q]);
             const double nu = layer_viscosity(layer.phi, step.fluid, step.weight, numerics.viscosity_mean);
             const double hoop = ur.value[q] / r, shear = ur.z[q] + uz.r[q];
             const double stretching =
@@ -55,17 +54,16 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
             integrals.molecules += w * density * c.value[q];
             integrals.stretching += w * density * s.value[q];
             const auto weight = energy_weight(layer, psi.value[q], epsilon);
-            diagnostics.bending_energy +=
-                w * moment_energy({b.value[q], b.r[q], b.z[q]}, distance_here, K, weight.value, epsilon, model);
+            diagnostics.bending_energy += w * energy_per_volume({b.value[q], b.r[q], b.z[q]}, distance_here, elastic,
+                                                                weight.value, epsilon, energy);
             diagnostics.viscous_dissipation +=
                 w * nu * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
             if (step.fluid.dynamics == Dynamics::geometric)
                 diagnostics.mobility_dissipation += w * step.fluid.normal_mobility * g.value[q] * g.value[q] * density;
             diagnostics.tension_power += w * (density * lambda.value[q] * stretching -
                                               layer.delta * layer_pressure.value[q] * (ur.r[q] + hoop + uz.z[q]));
-            const double e = molecular_energy(b.value[q], K, bending);
-            diagnostics.transport_power +=
-                w * density * e * (c_rate.value[q] + ur.value[q] * c.r[q] + uz.value[q] * c.z[q]);
+            diagnostics.transport_power += w * density * elastic.by_concentration *
+                                           (c_rate.value[q] + ur.value[q] * c.r[q] + uz.value[q] * c.z[q]);
             if (std::abs(layer.phi) > layer_edge) continue;
             diagnostics.area_strain_max = std::max(diagnostics.area_strain_max, std::abs(s.value[q] - 1));
             const double thickness_error = std::abs(gradient - 1);
@@ -89,11 +87,11 @@ SolutionMeasures measure_solution(const Space& space, const BendingModel& model,
     return out;
 }
 
-SolutionMeasures measure_solution(const Space& space, const BendingModel& model, const StepNumbers& step,
+SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy, const StepNumbers& step,
                                   const Vector& solution) {
     Vector at_rest = space.vector();
     at_rest.update_ghost_values();
-    return measure_solution(space, model, step, solution, solution, at_rest, solution);
+    return measure_solution(space, energy, step, solution, solution, at_rest, solution);
 }
 
 double molecules_of(const Space& space, const StepNumbers& step, const Vector& solution) {

@@ -14,12 +14,12 @@ struct SolutionMeasures {
 };
 
 /// `before` and `predicted` give the motion and the difference to the predictor, `rate` is ∂/∂t of the fields [1/µs].
-SolutionMeasures measure_solution(const Space& space, const BendingModel& model, const StepNumbers& step,
+SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy, const StepNumbers& step,
                                   const Vector& before, const Vector& predicted, const Vector& rate,
                                   const Vector& solution);
 
 /// The same without a step: nothing moves.
-SolutionMeasures measure_solution(const Space& space, const BendingModel& model, const StepNumbers& step,
+SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy, const StepNumbers& step,
                                   const Vector& solution);
 
 /// ∫δ_m c alone [nm²], a small part of the cost of measuring the solution; collective.

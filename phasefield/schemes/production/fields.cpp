@@ -56,16 +56,16 @@ Held unstretched_at_side(BoundaryId boundary, double /*above*/, const Parameters
     return boundary == side && !in_free_space(p) ? Held(1) : std::nullopt;
 }
 
-double initial_distance(const InitialPoint& at, const BendingModel& /*model*/) {
+double initial_distance(const InitialPoint& at, const MembraneEnergy& /*energy*/) {
     return at.distance;
 }
-double initial_moment(const InitialPoint& at, const BendingModel& model) {
-    return model.stiffness(at.molecules).value * (model.spontaneous_curvature(at.molecules).value - at.curvature);
+double initial_moment(const InitialPoint& at, const MembraneEnergy& energy) {
+    return -energy.density(at.curvature, at.molecules, 0).partial[local::curvature];
 }
-double initial_molecules(const InitialPoint& at, const BendingModel& /*model*/) {
+double initial_molecules(const InitialPoint& at, const MembraneEnergy& /*energy*/) {
     return at.molecules;
 }
-double one(const InitialPoint& /*at*/, const BendingModel& /*model*/) {
+double one(const InitialPoint& /*at*/, const MembraneEnergy& /*energy*/) {
     return 1;
 }
 
@@ -111,13 +111,13 @@ std::vector<unsigned int> field_degrees(const PhaseFieldParameters& p) {
     return degrees;
 }
 
-Vector initial_fields(const Space& space, const Parameters& p, const BendingModel& model) {
+Vector initial_fields(const Space& space, const Parameters& p, const MembraneEnergy& energy) {
     Vector out = space.vector();
     const InitialMembrane membrane(p);
     for (const auto& unknown : unknowns())
         if (unknown.initial != nullptr)
             interpolate(
-                space, unknown.field, [&](double r, double z) { return unknown.initial(membrane.at(r, z), model); },
+                space, unknown.field, [&](double r, double z) { return unknown.initial(membrane.at(r, z), energy); },
                 out);
     finish_interpolation(space, out);
     return out;

@@ -7,7 +7,7 @@
 #include "phasefield/contour/cell_contour.h"
 #include "phasefield/fem/space.h"
 #include "phasefield/layer/initial_membrane.h"
-#include "shared/model/bending_model.h"
+#include "shared/model/membrane_energy.h"
 #include "shared/parameters/parameters.h"
 
 namespace endoflow::phasefield::production {
@@ -45,7 +45,7 @@ struct Unknown {
     unsigned int (*degree)(const PhaseFieldParameters&);
     /// The value it is held at on a boundary, `above` the membrane's flat height [nm], if it is.
     std::optional<double> (*held)(dealii::types::boundary_id, double above, const Parameters&) = nullptr;
-    double (*initial)(const InitialPoint&, const BendingModel&) = nullptr;
+    double (*initial)(const InitialPoint&, const MembraneEnergy&) = nullptr;
     bool (*switched_off)(const Parameters&) = nullptr;
 };
 
@@ -56,7 +56,7 @@ const std::array<Unknown, n_fields>& unknowns();
 std::vector<unsigned int> field_degrees(const PhaseFieldParameters& parameters);
 
 /// The membrane with its patch of molecules at rest.
-Vector initial_fields(const Space& space, const Parameters& parameters, const BendingModel& model);
+Vector initial_fields(const Space& space, const Parameters& parameters, const MembraneEnergy& energy);
 
 /// Where the membrane and the fields on it are found.
 ContourFields contour_fields(const Space& space, const Vector& solution);

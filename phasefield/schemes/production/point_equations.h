@@ -26,7 +26,7 @@ namespace endoflow::phasefield::production {
 /// All rows at one point at radius r [nm].
 template <class Number>
 Fields<Number> point_equations(const Fields<Number>& x, double r, const PointPast& past, const GradientChange& change,
-                               const StepNumbers& step, const BendingModel& model) {
+                               const StepNumbers& step, const LayerEnergy& energy) {
     const auto& psi = x[distance];
     const double epsilon = past.thickness.value;
     const SheetGradient<Number> sheet = sheet_gradient(psi, past.thickness);
@@ -43,7 +43,7 @@ Fields<Number> point_equations(const Fields<Number>& x, double r, const PointPas
                                   psi.r * psi.r + psi.z * psi.z,
                                   inverse};
     Fields<Number> row;
-    const Number e = add_bending(x, p, model, past, row);
+    const Number e = add_bending(x, p, energy, past, row);
     add_flow(x, p, e, r, past, change, step, row);
     add_inextensibility(x, p, past, r, step, row);
     add_motion(x, p, past, step, row);

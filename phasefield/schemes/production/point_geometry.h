@@ -1,17 +1,13 @@
 #pragma once
 
 #include <cmath>
-#include <memory>
 
 #include "phasefield/layer/profile.h"
 #include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/fields.h"
-#include "phasefield/schemes/production/layer_thickness.h"
 #include "phasefield/schemes/production/layer_weights.h"
-#include "phasefield/schemes/production/membrane_weight.h"
-#include "phasefield/schemes/production/rates.h"
+#include "phasefield/schemes/production/step_numbers.h"
 #include "shared/numerics/forward.h"
-#include "shared/parameters/parameters.h"
 
 namespace endoflow::phasefield::production {
 
@@ -38,24 +34,6 @@ struct PointPast {
 /// fixed.
 struct GradientChange {
     double r = 0, z = 0;
-};
-
-/// Numbers of one step.
-struct StepNumbers {
-    double rate = 0;  // a₀ [1/µs]
-    PhaseFieldParameters numerics;
-    FluidParameters fluid;
-    MoleculeParameters molecules;
-    MembraneWeight weight;
-    SchemeRates rates;
-    double profile_relaxation = rates.profile_relaxation;  // M of this step [nm/µs]
-    bool inextensible = true;                              // s is one but for what the tension leaves
-    std::shared_ptr<const CellThickness> thickness{};      // of the layer; none: uniform
-
-    /// ε at the point (x, y) of a unit cell.
-    [[nodiscard]] PointThickness thickness_at(std::size_t active_cell, const CellBox& box, double x, double y) const {
-        return thickness ? thickness->at(active_cell, box, x, y) : PointThickness{numerics.epsilon};
-    }
 };
 
 inline constexpr double surface_floor = constant("surface_floor");

@@ -38,19 +38,12 @@ double position_tolerance(const Parameters& p) {
 
 ProductionScheme::ProductionScheme(const Parameters& parameters, MPI_Comm communicator)
     : parameters_(parameters),
-      model_(parameters.membrane),
+      energy_(parameters),
       mesh_(coarse_mesh(parameters, communicator)),
       space_(*mesh_, field_degrees(parameters.phase_field)),
-      numbers_{0,
-               parameters.phase_field,
-               parameters.fluid,
-               parameters.molecules,
-               membrane_weight(parameters.fluid, parameters.phase_field.viscosity_mean),
-               scheme_rates(parameters)},
-      solver_(parameters, model_, communicator, newton_part * position_tolerance(parameters)),
-      nominal_(first_step(parameters)) {
-    numbers_.inextensible = parameters.membrane.inextensible;
-}
+      numbers_(parameters, membrane_weight(parameters.fluid, parameters.phase_field.viscosity_mean)),
+      solver_(parameters, energy_, communicator, newton_part * position_tolerance(parameters)),
+      nominal_(first_step(parameters)) {}
 
 namespace {
 
@@ -115,7 +108,7 @@ Contour ProductionScheme::contour(const Vector& solution) const {
 
 StepOutcome ProductionScheme::present() {
     const Vector& solution = solutions_.front();
-    const auto measures = measure_solution(space_, model_, numbers_, solution);
+    const auto measures = measure_solution(space_, energy_, numbers_, solution);
     integrals_ = measures.integrals;
     StepOutcome out{measures.diagnostics, contour(solution), {}};
     membrane_ = out.contour.curve;
@@ -127,7 +120,7 @@ StepOutcome ProductionScheme::start() {
     while (flag_bands(*mesh_, refined_bands(curve, parameters_))) mesh_->execute_coarsening_and_refinement();
     renew();
 
-    const Vector solution = initial_fields(space_, parameters_, model_);
+    const Vector solution = initial_fields(space_, parameters_, energy_.density);
     solutions_ = {solution};
     solutions_.front().update_ghost_values();
     times_ = {0};
@@ -175,8 +168,8 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     rate.add(bdf.rate, trial_);
     for (std::size_t j = 0; j < bdf.past.size(); ++j) rate.add(bdf.past[j], solutions_[j]);
     rate.update_ghost_values();
-    auto measures = measure_solution(space_, model_, numbers_, solutions_.front(), predicted, rate, trial_);
-    measures.diagnostics.net_vertical_force = net_vertical_force(space_, model_, numbers_, history, trial_);
+    auto measures = measure_solution(space_, energy_, numbers_, solutions_.front(), predicted, rate, trial_);
+    measures.diagnostics.net_vertical_force = net_vertical_force(space_, energy_, numbers_, history, trial_);
     measures.diagnostics.extracellular_inflow =
         extracellular_inflow(space_, trial_, velocity_r, velocity_z, distance,
                              [this](double psi) { return equilibrium_profile(psi, parameters_.phase_field.epsilon); });

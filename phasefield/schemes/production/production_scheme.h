@@ -51,7 +51,7 @@ class ProductionScheme : public Scheme {
     StepOutcome present();
 
     Parameters parameters_;
-    BendingModel model_;
+    LayerEnergy energy_;
     std::unique_ptr<Mesh> mesh_;
     Space space_;
     StepNumbers numbers_;

@@ -26,8 +26,8 @@ constexpr std::size_t vectors_of_guess = 2;  // of an Origin, before the solutio
 
 }  // namespace
 
-StepSolver::StepSolver(const Parameters& parameters, const BendingModel& model, MPI_Comm communicator, double wanted)
-    : model_(model), pattern_(parameters, model), system_(communicator, "coupled"), wanted_(wanted) {}
+StepSolver::StepSolver(const Parameters& parameters, const LayerEnergy& energy, MPI_Comm communicator, double wanted)
+    : energy_(energy), pattern_(parameters, energy), system_(communicator, "coupled"), wanted_(wanted) {}
 
 void StepSolver::reinit(const Space& space) {
     system_.reinit(space);
@@ -44,7 +44,7 @@ Vector StepSolver::factorise(const Problem& problem, const Vector& solution) {
                {solution}};
     origin_.vectors.push_back(*history.extrapolated);
     for (std::size_t j = 0; j < history.weights.size(); ++j) origin_.vectors.push_back((*history.solutions)[j]);
-    assemble(*problem.space, pattern_, model_, *problem.numbers, history, solution, system_);
+    assemble(*problem.space, pattern_, energy_, *problem.numbers, history, solution, system_);
     Vector out = problem.space->vector();
     system_.forget_factors();
     system_.solve(*problem.space, out);
@@ -52,7 +52,7 @@ Vector StepSolver::factorise(const Problem& problem, const Vector& solution) {
 }
 
 Vector StepSolver::increment(const Problem& problem, const Vector& solution) {
-    assemble_residual(*problem.space, pattern_, model_, *problem.numbers, *problem.history, solution, system_);
+    assemble_residual(*problem.space, pattern_, energy_, *problem.numbers, *problem.history, solution, system_);
     Vector out = problem.space->vector();
     system_.apply_factors(*problem.space, out);
     return out;

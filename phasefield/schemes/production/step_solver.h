@@ -15,7 +15,7 @@ namespace endoflow::phasefield::production {
 class StepSolver {
   public:
     /// `wanted`: the change of ψ in the layer [nm] to which the method converges.
-    StepSolver(const Parameters& parameters, const BendingModel& model, MPI_Comm communicator, double wanted);
+    StepSolver(const Parameters& parameters, const LayerEnergy& energy, MPI_Comm communicator, double wanted);
 
     /// The mesh has changed: nothing is left of the factors.
     void reinit(const Space& space);
@@ -61,7 +61,7 @@ class StepSolver {
     /// Diverged, too, when there are no factors of single precision.
     Ending iterate_with_new_factors(const Problem& problem, Vector& solution);
 
-    BendingModel model_;
+    LayerEnergy energy_;
     EquationPattern pattern_;
     CondensedSystem system_;
     Origin origin_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "phasefield/schemes/production/point_geometry.h"
-#include "shared/model/double_well.h"
 
 namespace endoflow::phasefield::production {
 
@@ -28,7 +27,7 @@ void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry
 /// did with normals that lagged behind in the layer's tails by as little as a tenth of a step.
 inline double normal_diffusivity_of_molecules(double epsilon, const StepNumbers& step) {
     const double least = step.rates.least_normal_diffusivity / (epsilon * epsilon * epsilon);
-    return within_a_step(std::max(step.molecules.normal_diffusivity, least), epsilon, step);
+    return within_a_step(std::max(step.normal_diffusivity, least), epsilon, step);
 }
 
 /// D ∇_Γ y along the sheets: across them δ may change where the layer thins, and y would follow.
@@ -56,8 +55,9 @@ void add_redistribution(const Number& c, const AtPoint<Number>& s, const PointGe
     add_surface_diffusion(s, stretch_diffusivity(step) * weight * c, p, row);
 }
 
-/// (40), (41), or (39), or (14): δ_m c is conserved. The diffusion along the membrane ends where δ_m does: on the
-/// coarse cells beyond, the double well would have several solutions where the layers of bud and plane meet.
+/// (40), (41), or (39), or (14): δ_m c is conserved under the case's transport law. The potential is a field of its own
+/// where it holds ∇_Γ c. The diffusion along the membrane ends where δ_m does: on the coarse cells beyond, the double
+/// well would have several solutions where the layers of bud and plane meet.
 template <class Number>
 void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, const PointPast& past,
                    const StepNumbers& step, Fields<Number>& row) {
@@ -69,15 +69,15 @@ void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     add_diffusion(c, step.rates.molecule_leak * (phi2 * phi2), row[molecule_density]);
     if (step.inextensible) add_redistribution(c.value, x[membrane_stretch], p, weight, step, row[molecule_density]);
     row[molecule_potential].value = p.surface * mu.value;
-    if (step.molecules.transport == Transport::cahn_hilliard) {
-        const double width = step.molecules.interface_width;
-        const auto well = double_well(value_of(c.value));
-        add_surface_diffusion<Number>(mu, step.molecules.mobility * weight, p, row[molecule_density]);
-        row[molecule_potential].value =
-            p.surface * mu.value - (1 / width) * p.layer.delta * chain(c.value, well.first, well.second);
-        add_surface_diffusion<Number>(c, -width * p.layer.delta, p, row[molecule_potential]);
-    } else if (step.molecules.transport == Transport::fickian) {
-        add_surface_diffusion<Number>(c, step.molecules.diffusivity * weight, p, row[molecule_density]);
+    const TransportLaw& law = step.transport;
+    const ValueAndDerivatives local = law.potential(value_of(c.value));
+    if (law.edge_width > 0) {
+        add_surface_diffusion<Number>(mu, law.mobility * weight, p, row[molecule_density]);
+        row[molecule_potential].value = p.surface * mu.value - p.layer.delta * chain(c.value, local.value, local.first);
+        add_surface_diffusion<Number>(c, -law.edge_width * p.layer.delta, p, row[molecule_potential]);
+    } else if (law.mobility > 0) {
+        const Number diffusivity = chain(c.value, local.first, local.second);
+        add_surface_diffusion<Number>(c, law.mobility * diffusivity * weight, p, row[molecule_density]);
     }
 }
 

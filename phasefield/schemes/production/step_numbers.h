@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "phasefield/schemes/production/layer_thickness.h"
+#include "phasefield/schemes/production/membrane_weight.h"
+#include "phasefield/schemes/production/rates.h"
+#include "shared/model/transport_law.h"
+#include "shared/parameters/parameters.h"
+
+namespace endoflow::phasefield::production {
+
+/// Numbers of one step.
+struct StepNumbers {
+    /// Of a case whose membrane has this weight; the rate is that of a step.
+    StepNumbers(const Parameters& p, const MembraneWeight& membrane, double a0 = 0)
+        : rate(a0),
+          numerics(p.phase_field),
+          fluid(p.fluid),
+          normal_diffusivity(p.molecules.normal_diffusivity),
+          transport(transport_law(p.molecules)),
+          weight(membrane),
+          rates(scheme_rates(p)),
+          profile_relaxation(rates.profile_relaxation),
+          inextensible(p.membrane.inextensible) {}
+
+    double rate;  // a₀ [1/µs]
+    PhaseFieldParameters numerics;
+    FluidParameters fluid;
+    double normal_diffusivity;  // of c, at least [nm²/µs]
+    TransportLaw transport;
+    MembraneWeight weight;
+    SchemeRates rates;
+    double profile_relaxation;                         // M of this step [nm/µs]
+    bool inextensible;                                 // s is one but for what the tension leaves
+    std::shared_ptr<const CellThickness> thickness{};  // of the layer; none: uniform
+
+    /// ε at the point (x, y) of a unit cell.
+    [[nodiscard]] PointThickness thickness_at(std::size_t active_cell, const CellBox& box, double x, double y) const {
+        return thickness ? thickness->at(active_cell, box, x, y) : PointThickness{numerics.epsilon};
+    }
+};
+
+}  // namespace endoflow::phasefield::production
