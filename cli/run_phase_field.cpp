@@ -80,7 +80,9 @@ class LastWords {
 int run(int argc, char** argv, int rank, int processes) {
     const auto request = parse_run_request(argc, argv, "phase-field");
     if (!request) return 0;
-    require_no_loads(request->parameters, "phase-field");
+    if (request->parameters.phase_field.scheme == PhaseFieldScheme::paper)
+        require_no_loads(request->parameters, "phase-field (scheme paper)");
+    require_no_coupling(request->parameters, "phase-field");
     install_signal_handlers();
     const auto output = open_output(*request, rank, processes);
     if (!output) return 0;

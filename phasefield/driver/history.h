@@ -1,16 +1,13 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "phasefield/driver/molecule_balance.h"
 #include "phasefield/schemes/interface/diagnostics.h"
 #include "shared/geometry/observables.h"
-#include "shared/output/history_file.h"
+#include "shared/output/history_columns.h"
 
 namespace endoflow::phasefield {
-
-/// The engine's own columns of history.csv, in the order of make_history_row.
-std::vector<std::string> extra_history_columns();
 
 /// What a step left behind, for history.csv.
 struct StepRecord {
@@ -18,9 +15,13 @@ struct StepRecord {
     StepDiagnostics diagnostics;
     LayerIntegrals integrals;
     Observables observables;
-    double energy_law_residual;  // dE/dt + dissipation − transport's power [pN nm/µs], (21)
+    double energy_law_residual;  // d(E + E_c)/dt + dissipation − power of transport and loads [pN nm/µs], (21)
+    MoleculeBalance molecules;
     double unknowns, cells;
 };
+
+/// The engine's own columns of history.csv, with their values.
+const std::vector<OwnColumn<StepRecord>>& own_history_columns();
 
 HistoryRow make_history_row(const StepRecord& record);
 

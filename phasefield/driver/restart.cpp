@@ -26,12 +26,13 @@ void TimeLoop::checkpoint() {
     Checkpoint checkpoint;
     checkpoint.time_us = time_;
     checkpoint.texts["mesh"] = slot;
-    checkpoint.scalars = {{"bending_energy", last_energy_},
+    checkpoint.scalars = {{"energy", last_energy_},
                           {"energy_loss_rate", last_loss_},
                           {"checkpoints_written", checkpoints_written_},
                           {"neck_radius", neck_radius_.value_or(-1)},
                           {"budding_time", budding_time_.value_or(-1)}};
     checkpoint.arrays["field_times"] = field_times_;
+    molecules_.save(checkpoint);
     const auto directory = output_.directory() / "checkpoint" / slot;
     try {
         scheme_->save(directory, checkpoint);
@@ -51,12 +52,13 @@ void TimeLoop::restart(const Checkpoint& checkpoint) {
     time_ = checkpoint.time_us;
     last_shape_ = time_;
     plan_output(time_);
-    last_energy_ = checkpoint.scalar("bending_energy");
+    last_energy_ = checkpoint.scalar("energy");
     last_loss_ = checkpoint.scalar("energy_loss_rate");
     checkpoints_written_ = checkpoint.scalar("checkpoints_written");
     neck_radius_ = optional("neck_radius");
     budding_time_ = optional("budding_time");
     field_times_ = checkpoint.array("field_times");
+    molecules_.load(checkpoint);
     const auto directory = output_.directory() / "checkpoint" / checkpoint.text("mesh");
     require_files(directory, checkpoint.text("mesh_files"));
     contour_ = scheme_->load(directory, checkpoint).contour;

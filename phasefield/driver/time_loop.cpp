@@ -7,6 +7,7 @@
 
 #include "phasefield/driver/clearance.h"
 #include "phasefield/driver/history.h"
+#include "shared/model/membrane_energy.h"
 #include "shared/output/output_times.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
@@ -35,7 +36,8 @@ TimeLoop::TimeLoop(const Parameters& parameters, RunOutput& output, MPI_Comm com
 void TimeLoop::start_fresh() {
     const StepOutcome outcome = scheme_->start();
     contour_ = outcome.contour;
-    last_energy_ = outcome.diagnostics.bending_energy;
+    last_energy_ = outcome.diagnostics.bending_energy + outcome.diagnostics.line_energy;
+    molecules_.start(scheme_->integrate().molecules, outcome.diagnostics.exchange_rate);
     record(0, outcome.diagnostics);
     output_.write_shape(0, contour_.curve);
     if (parameters_.output.field_interval > 0) write_fields(0);
@@ -101,15 +103,20 @@ void TimeLoop::keep(const StepOutcome& outcome, double tau) {
 void TimeLoop::record(double tau, const StepDiagnostics& diagnostics) {
     const PhaseTimer timer(output_, "observables");
     observables_ = measure(contour_.curve, model_);
+    if (tau > 0) molecules_.advance(time_, diagnostics.exchange_rate);
+    const double molecular = energetically_coupled(parameters_.molecules)
+                                 ? diagnostics.exchange_power - diagnostics.molecule_dissipation
+                                 : diagnostics.transport_power;
     const double loss = diagnostics.viscous_dissipation + diagnostics.mobility_dissipation + diagnostics.tension_power -
-                        diagnostics.transport_power;
+                        molecular - diagnostics.load_power;
     // (21) over the step, the power by the trapezoidal rule; the first step starts from rest in an instant.
     const double power = last_loss_ != 0 ? 0.5 * (last_loss_ + loss) : loss;
-    const double residual = tau > 0 ? (diagnostics.bending_energy - last_energy_) / tau + power : 0;
-    last_energy_ = diagnostics.bending_energy;
+    const double energy = diagnostics.bending_energy + diagnostics.line_energy;
+    const double residual = tau > 0 ? (energy - last_energy_) / tau + power : 0;
+    last_energy_ = energy;
     last_loss_ = loss;
     output_.record_step(make_history_row({time_, tau, diagnostics, scheme_->integrate(), observables_, residual,
-                                          scheme_->unknowns(), scheme_->cells()}));
+                                          molecules_, scheme_->unknowns(), scheme_->cells()}));
 }
 
 void TimeLoop::watch_neck(double tau) {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "phasefield/driver/molecule_balance.h"
 #include "phasefield/schemes/interface/scheme.h"
 #include "shared/geometry/observables.h"
 #include "shared/output/run_output.h"
@@ -48,7 +49,8 @@ class TimeLoop {
     BendingModel model_;
     Contour contour_;
     Observables observables_{};
-    double time_ = 0, last_energy_ = 0, last_loss_ = 0;
+    double time_ = 0, last_energy_ = 0, last_loss_ = 0;  // E + E_c and what it loses per time
+    MoleculeBalance molecules_;
     double last_shape_ = 0, next_shape_ = 0, next_fields_ = 0;  // when they are due [µs]
     double checkpoints_written_ = 0;
     std::vector<double> field_times_;

@@ -9,10 +9,7 @@
 
 namespace endoflow::phasefield {
 
-namespace {
-
-/// Gauss points on one face of the unit cell, as points of the cell.
-dealii::Quadrature<2> on_face(unsigned int face, unsigned int n) {
+dealii::Quadrature<2> face_quadrature(unsigned int face, unsigned int n) {
     const dealii::QGauss<1> gauss(n);
     std::vector<dealii::Point<2>> points;
     for (const auto& point : gauss.get_points()) {
@@ -23,11 +20,13 @@ dealii::Quadrature<2> on_face(unsigned int face, unsigned int n) {
     return {points, gauss.get_weights()};
 }
 
+namespace {
+
 /// What flows through one of the four faces of a cell.
 struct Face {
     Face(const Space& space, unsigned int number, unsigned int n, unsigned int velocity_r, unsigned int velocity_z,
          unsigned int level)
-        : quadrature(on_face(number, n)),
+        : quadrature(face_quadrature(number, n)),
           normal_velocity(space, number < 2 ? velocity_r : velocity_z, quadrature),
           level_set(space, level, quadrature) {}
     dealii::Quadrature<2> quadrature;

@@ -14,6 +14,10 @@ bool moves_in_fluid(const Parameters& p) {
     return p.fluid.dynamics == Dynamics::flow;
 }
 
+bool keeps_its_molecules(const Parameters& p) {
+    return p.molecules.exchange == Exchange::none;
+}
+
 constexpr const char* finer_elements = "raise boundary_integral.elements, or lower time.tolerance";
 constexpr const char* finer_layer = "lower phase_field.epsilon (and cell_size with it), or time.tolerance";
 
@@ -30,10 +34,10 @@ const std::vector<AccuracyBound>& boundary_integral_bounds() {
          "energy's rate against what the membrane's own mobility takes, without a fluid", finer_elements,
          [](const Parameters& p) { return !moves_in_fluid(p); }},
         {"mass-drift", "boundary-integral", "molecule_mass_nm2", drift, 1e-4, 0.1, "change of the molecules' mass",
-         finer_elements, [](const Parameters& p) { return p.molecules.exchange == Exchange::none; }},
+         finer_elements, keeps_its_molecules},
         {"molecule-balance", "boundary-integral", "molecule_balance_relative", value, 1e-3, 0.1,
          "molecules on the membrane against those it had and those that came", finer_elements,
-         [](const Parameters& p) { return p.molecules.exchange != Exchange::none; }},
+         [](const Parameters& p) { return !keeps_its_molecules(p); }},
         {"area-strain", "boundary-integral", "area_strain_max", value, 1e-2, 1.0,
          "largest change of area of an inextensible membrane's material", finer_elements, keeps_its_area},
         {"force-balance",
@@ -72,15 +76,11 @@ const std::vector<AccuracyBound>& phase_field_bounds() {
          "energy that the law (21) does not account for, of the initial energy",
          finer_layer,
          {}},
-        {"mass-drift",
-         "phase-field",
-         "molecule_mass_nm2",
-         drift,
-         1e-3,
-         0.1,
-         "change of the molecules' mass",
-         finer_layer,
-         {}},
+        {"mass-drift", "phase-field", "molecule_mass_nm2", drift, 1e-3, 0.1, "change of the molecules' mass",
+         finer_layer, keeps_its_molecules},
+        {"molecule-balance", "phase-field", "molecule_balance_relative", value, 1e-3, 0.1,
+         "molecules on the membrane against those it had and those that came", finer_layer,
+         [](const Parameters& p) { return !keeps_its_molecules(p); }},
         {"area-strain", "phase-field", "area_strain_max", value, 1e-2, 1.0,
          "largest change of area of an inextensible membrane's material", finer_layer, keeps_its_area},
         {"thickness",

@@ -19,34 +19,6 @@ using namespace endoflow::phasefield::production;
 
 namespace {
 
-constexpr std::size_t n_features = 3 * n_fields;
-
-template <class Number>
-Number& part(AtPoint<Number>& at, std::size_t which) {
-    return which == 0 ? at.value : which == 1 ? at.r : at.z;
-}
-
-/// Stiffer at high curvatures and where there are molecules.
-struct StiffeningTerm {
-    double strength;
-
-    template <class Number>
-    [[nodiscard]] Number density(const LocalShape<Number>& x) const {
-        const Number squared = x.curvature * x.curvature;
-        return strength * (1.0 + x.concentration) * squared * squared;
-    }
-};
-
-/// A point in the middle of the layer, |∇ψ| ≠ 1, nothing zero.
-Fields<double> some_point() {
-    Fields<double> x;
-    for (std::size_t k = 0; k < n_features; ++k)
-        part(x[k / 3], k % 3) = 0.3 + 0.5 * std::sin(1.7 * static_cast<double>(k) + 0.4);
-    x[molecule_density].value = 0.6;
-    x[membrane_stretch].value = 1.1;
-    return x;
-}
-
 StepNumbers numbers(const Parameters& p) {
     return step_numbers(p, 40, scheme_rates(p).profile_relaxation);
 }
@@ -104,88 +76,6 @@ double change_of_stretch(const Parameters& p, double psi, double motion) {
 }
 
 }  // namespace
-
-TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
-    Parameters p;
-    for (const bool inertia : {false, true})
-        for (const Transport transport : {Transport::cahn_hilliard, Transport::fickian}) {
-            p.fluid.inertia = inertia;
-            p.fluid.density = 1;  // large enough to be seen
-            p.molecules.transport = transport;
-            p.phase_field.production.profile_relaxation = p.molecules.mobility =
-                p.phase_field.production.stretching_alignment = 10;
-            const LayerEnergy energy(p);
-            PointPast past;
-            past.thickness = {p.phase_field.epsilon, 0.05, -0.08};
-            past.normal = past.molecules_normal = {0.5, 0.6};
-            const GradientChange change{0.3, -0.2};
-            past.slope_r = 0.1;
-            past.slope_z = 0.05;
-            const auto x = some_point();
-            Fields<Dual<n_features>> seeded;
-            for (std::size_t k = 0; k < n_features; ++k) {
-                auto xk = x;
-                auto& variable = part(seeded[k / 3], k % 3);
-                variable.value = part(xk[k / 3], k % 3);
-                variable.partial[k] = 1;
-            }
-            auto rows = point_equations(seeded, 7.0, past, change, numbers(p), energy);
-            constexpr double step = 1e-5;
-            for (std::size_t k = 0; k < n_features; ++k) {
-                auto up = x, down = x;
-                part(up[k / 3], k % 3) += step;
-                part(down[k / 3], k % 3) -= step;
-                auto above = point_equations(up, 7.0, past, change, numbers(p), energy),
-                     below = point_equations(down, 7.0, past, change, numbers(p), energy);
-                for (std::size_t i = 0; i < n_features; ++i) {
-                    const double difference = (part(above[i / 3], i % 3) - part(below[i / 3], i % 3)) / (2 * step);
-                    // Central differences: step² times third derivatives of order 1e3, and round-off over the step.
-                    CHECK(part(rows[i / 3], i % 3).partial[k] == Approx(difference).epsilon(1e-5).margin(1e-4));
-                }
-            }
-        }
-}
-
-TEST_CASE("forces are the variation of the energy", "[production]") {
-    // An energy is what its terms say: the equations follow a term that they have never heard of.
-    const Parameters p;
-    for (const MembraneEnergy& membrane : {membrane_energy(p), membrane_energy(p).add(StiffeningTerm{40})}) {
-        const LayerEnergy energy(membrane);
-        const double epsilon = p.phase_field.epsilon;
-        const PointThickness thickness{epsilon, 0.05, -0.08};
-        // The integrand of the two-field energy that add_bending() documents.
-        const auto integrand = [&](const Fields<double>& x) {
-            const auto &psi = x[distance], &b = x[Field::moment];
-            const auto layer = layer_profile(psi.value, epsilon);
-            const auto weight = energy_weight(layer, psi.value, epsilon);
-            const double conjugate = membrane.conjugate(-b.value, x[molecule_density].value, 0).value;
-            const double squared = psi.r * psi.r + psi.z * psi.z;
-            return weight.value * (-conjugate - psi.r * b.r - psi.z * b.z) -
-                   0.5 * weight.first * (1 + squared) * b.value -
-                   weight.thickness * b.value * (thickness.r * psi.r + thickness.z * psi.z) -
-                   0.5 * energy.compliance(epsilon) * weight.value * std::pow(psi.r * b.r + psi.z * b.z, 2) -
-                   0.5 * energy.smoothing(epsilon) * (b.r * b.r + b.z * b.z);
-        };
-        auto x = some_point();
-        x[normal_force] = {};  // its own terms are not the energy's
-        PointPast past;
-        past.thickness = thickness;
-        past.normal = past.molecules_normal = {0.6, 0.8};
-        auto rows = point_equations(x, 7.0, past, {}, numbers(p), energy);
-        for (const Field field : {distance, Field::moment})
-            for (std::size_t k = 0; k < 3; ++k) {
-                constexpr double step = 1e-5;
-                auto up = x, down = x;
-                part(up[field], k) += step;
-                part(down[field], k) -= step;
-                // Rows are written with the sign of the other side.
-                const double derivative = (integrand(up) - integrand(down)) / (2 * step);
-                const double row = part(rows[field == distance ? normal_force : Field::moment], k);
-                // step² times third derivatives of order 10, and round-off over the step.
-                CHECK(-row == Approx(derivative).epsilon(1e-7).margin(1e-8));
-            }
-    }
-}
 
 TEST_CASE("what keeps G constant along the normal exerts no net force", "[production]") {
     // A translation of the membrane along z is u = e_z for the flow and χ = ∂ψ/∂z for G: the two powers are equal.

@@ -22,6 +22,11 @@ struct StepDiagnostics {
     double motion_max;                // max |φ − φⁿ|/|∇φⁿ| on |φ| < 0.9 [nm]
     double net_vertical_force = 0;    // of the membrane on the fluid [pN]; the pinned rim takes it up
     double extracellular_inflow = 0;  // −∮ ½(1 + φ) u·n dA [nm³/µs]
+    double load_power = 0;            // of rim tension, pressure and pole force [pN nm/µs]
+    double line_energy = 0;           // E_c [pN nm]
+    double molecule_dissipation = 0;  // ∫ M |∇_Γ μ|² where bending and line energy drive the molecules
+    double exchange_rate = 0;         // ∫ j dA [nm²/µs]
+    double exchange_power = 0;        // E + E_c that molecules bring when they come [pN nm/µs]
 };
 
 }  // namespace endoflow::phasefield

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "phasefield/schemes/production/external_loads.h"
+
 namespace endoflow::phasefield::production {
 
 namespace {
@@ -114,8 +116,8 @@ class CellEquations {
 
 /// The loop over cells: residual, and the Jacobian when Number carries derivatives.
 template <class Number>
-void assemble_cells(const Space& space, const EquationPattern& pattern, CellEquations equations,
-                    CondensedSystem& system) {
+void assemble_cells(const Space& space, const EquationPattern& pattern, CellEquations equations, RimTension rim,
+                    const Vector& iterate, CondensedSystem& system) {
     constexpr bool with_jacobian = std::is_same_v<Number, FeatureDual>;
     LocalSystem& local = equations.local;
     const unsigned int n = space.element.n_dofs_per_cell(), n_points = equations.quadrature.size();
@@ -148,6 +150,7 @@ void assemble_cells(const Space& space, const EquationPattern& pattern, CellEqua
             local.write_jacobian(cell_matrix);
         }
         local.write_residual(cell_rhs);
+        rim.add(cell, iterate, cell_rhs);
         if constexpr (with_jacobian)
             system.add(cell, cell_matrix, cell_rhs);
         else
@@ -160,14 +163,16 @@ void assemble_cells(const Space& space, const EquationPattern& pattern, CellEqua
 void assemble(const Space& space, const EquationPattern& pattern, const LayerEnergy& energy, const StepNumbers& step,
               const StepPast& history, const Vector& iterate, CondensedSystem& system) {
     system.start();
-    assemble_cells<FeatureDual>(space, pattern, CellEquations(space, energy, step, history, iterate), system);
+    assemble_cells<FeatureDual>(space, pattern, CellEquations(space, energy, step, history, iterate),
+                                RimTension(space, step), iterate, system);
 }
 
 void assemble_residual(const Space& space, const EquationPattern& pattern, const LayerEnergy& energy,
                        const StepNumbers& step, const StepPast& history, const Vector& iterate,
                        CondensedSystem& system) {
     system.start_right_hand_side();
-    assemble_cells<double>(space, pattern, CellEquations(space, energy, step, history, iterate), system);
+    assemble_cells<double>(space, pattern, CellEquations(space, energy, step, history, iterate),
+                           RimTension(space, step), iterate, system);
 }
 
 double net_vertical_force(const Space& space, const LayerEnergy& energy, const StepNumbers& step,

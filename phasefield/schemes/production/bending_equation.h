@@ -15,13 +15,24 @@ namespace endoflow::phasefield::production {
 /// not one for each level set. Its derivatives with respect to b, ψ and c are the rows of b and of the normal force G
 /// and the force e ∇c, so that the discrete equations obey the energy law. G is kept constant along the normal: what
 /// varies there is the force that keeps the profile, which the profile's relaxation takes over. Acting on the fluid it
-/// would drive a flow within the layer that the relaxation undoes all the time. Returns e = ∂e/∂c [pN/nm], cut off in
-/// the tails, too.
+/// would drive a flow within the layer that the relaxation undoes all the time.
+///
+/// An energy that knows the gradient along the sheets, t·∇c, has ∂E/∂c with a divergence in it: μ is then the field
+/// whose row this is, w μ = ∂E/∂c, and takes the place of ∂e/∂c in the force. The sheets' direction depends on ψ; what
+/// that adds to G vanishes where c is constant along the normal. Returns ∂e/∂c or μ [pN/nm], cut off in the tails, too,
+/// and the elastic state.
 template <class Number>
-Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const LayerEnergy& energy,
-                   const PointPast& past, Fields<Number>& row) {
+struct MolecularForce {
+    Number by_concentration;
+    ElasticState<Number> elastic;
+};
+template <class Number>
+MolecularForce<Number> add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const LayerEnergy& energy,
+                                   const PointPast& past, Fields<Number>& row) {
     const auto &psi = x[distance], &b = x[moment];
-    const ElasticState<Number> elastic = elastic_state_at(energy, b.value, x[molecule_density].value);
+    const auto& c = x[molecule_density];
+    const Number along = c.z * p.normal_r - c.r * p.normal_z;
+    const ElasticState<Number> elastic = elastic_state_at(energy, b.value, c.value, along);
     const Number conjugate = -1.0 * (b.value * elastic.curvature + elastic.density);  // e*
     const EnergyWeight<Number> w = energy_weight(p.layer, psi.value, p.epsilon);
     const Number mean = 0.5 * (1.0 + p.squared_gradient);
@@ -44,7 +55,17 @@ Number add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     row[normal_force].value += (0.5 * compliance) * w.first * slope * slope;
     row[normal_force].r += flux * b.r;
     row[normal_force].z += flux * b.z;
-    return w.kept * elastic.by_concentration;
+    if (!energy.coupled) return {w.kept * elastic.by_concentration, elastic};
+
+    const Number line = 2.0 * w.value * elastic.by_squared_gradient * along, turning = line * p.inverse_gradient;
+    const Number by_r = turning * (c.z - along * p.normal_r), by_z = -1.0 * turning * (c.r + along * p.normal_z);
+    row[normal_force].r = row[normal_force].r - by_r;
+    row[normal_force].z = row[normal_force].z - by_z;
+    row[normal_force].value += (thickness.r / p.epsilon) * by_r + (thickness.z / p.epsilon) * by_z;
+    const Number& mu = x[molecule_potential].value;
+    row[molecule_potential] = {(w.value + surface_floor / p.epsilon) * mu - w.value * elastic.by_concentration,
+                               line * p.normal_z, -1.0 * line * p.normal_r};
+    return {w.kept * mu, elastic};
 }
 
 }  // namespace endoflow::phasefield::production

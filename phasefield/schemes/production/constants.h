@@ -46,6 +46,7 @@ inline constexpr Constant constants[] = {
     {"last_normal_below", 1e-3, "(1 − φ²)²", "below it the last solution's closest normal takes over"},
     {"last_molecules_normal_below", 1e-4, "(1 − φ²)²",
      "the same for c, within the layer: the force e ∇c is some 900 pN"},
+    {"loaded_layer", 1e-10, "(1 − φ²)²", "beyond it, where δ_m is cut off, no pole force is looked up"},
     {"shortest_gradient", 0.3, "", "below it normals fade: they are about to cross"},
     // The layer's thickness (layer_thickness.cpp)
     {"thinnest", 0.125, "phase_field.epsilon", "the layer, however narrow the membrane"},

@@ -33,7 +33,7 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
         const auto &ur = local.field(velocity_r), &uz = local.field(velocity_z), &psi = local.field(distance),
                    &lambda = local.field(tension), &layer_pressure = local.field(pressure_layer),
                    &c = local.field(molecule_density), &s = local.field(membrane_stretch), &b = local.field(moment),
-                   &g = local.field(normal_force);
+                   &mu = local.field(molecule_potential), &g = local.field(normal_force);
         for (unsigned int q = 0; q < quadrature.size(); ++q) {
             const double r = box.r0 + box.hr * quadrature.point(q)[0];
             const double w = two_pi * quadrature.weight(q) * box.hr * box.hz * r;
@@ -45,7 +45,8 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
             const double gradient = std::hypot(psi.r[q], psi.z[q]), density = membrane_density(layer, step.weight);
             const auto sheet = sheet_gradient(distance_here, thickness);
             const double length = std::hypot(sheet.r, sheet.z, gradient_floor);
-            const auto elastic = elastic_state_at(energy, b.value[q], c.value[q]);
+            const double slope = (c.z[q] * sheet.r - c.r[q] * sheet.z) / length;
+            const auto elastic = elastic_state_at(energy, b.value[q], c.value[q], slope);
             const double nu = layer_viscosity(layer.phi, step.fluid, step.weight, numerics.viscosity_mean);
             const double hoop = ur.value[q] / r, shear = ur.z[q] + uz.r[q];
             const double stretching =
@@ -62,8 +63,23 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
                 diagnostics.mobility_dissipation += w * step.fluid.normal_mobility * g.value[q] * g.value[q] * density;
             diagnostics.tension_power += w * (density * lambda.value[q] * stretching -
                                               layer.delta * layer_pressure.value[q] * (ur.r[q] + hoop + uz.z[q]));
-            diagnostics.transport_power += w * density * elastic.by_concentration *
-                                           (c_rate.value[q] + ur.value[q] * c.r[q] + uz.value[q] * c.z[q]);
+            // δ(E + E_c)/δc where the energy is coupled.
+            const double potential = energy.coupled ? mu.value[q] : elastic.by_concentration;
+            if (energy.coupled) {
+                const double line = w * weight.value * energy.edge.density(elastic.curvature, c.value[q], slope * slope).value;
+                diagnostics.line_energy += line;
+                diagnostics.bending_energy -= line;
+                const double driven = (mu.z[q] * sheet.r - mu.r[q] * sheet.z) / length;
+                diagnostics.molecule_dissipation += w * step.transport.mobility * cut_density(layer) * driven * driven;
+            }
+            if (!step.exchange.none()) {
+                const double coming = step.exchange.rate<double>(
+                    c.value[q], bending_by_concentration(energy, elastic, c.value[q]), step.molecules);
+                diagnostics.exchange_rate += w * density * coming;
+                diagnostics.exchange_power += w * density * coming * potential;
+            }
+            diagnostics.transport_power +=
+                w * density * potential * (c_rate.value[q] + ur.value[q] * c.r[q] + uz.value[q] * c.z[q]);
             if (std::abs(layer.phi) > layer_edge) continue;
             diagnostics.area_strain_max = std::max(diagnostics.area_strain_max, std::abs(s.value[q] - 1));
             const double thickness_error = std::abs(gradient - 1);
@@ -79,7 +95,8 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
     const MPI_Comm communicator = space.dofs.get_communicator();
     sum_over_processes({&integrals.area, &integrals.molecules, &integrals.stretching, &diagnostics.bending_energy,
                         &diagnostics.viscous_dissipation, &diagnostics.mobility_dissipation, &diagnostics.tension_power,
-                        &diagnostics.transport_power},
+                        &diagnostics.transport_power, &diagnostics.line_energy, &diagnostics.molecule_dissipation,
+                        &diagnostics.exchange_rate, &diagnostics.exchange_power},
                        communicator);
     largest_of_processes({&diagnostics.area_strain_max, &diagnostics.thickness_error_max,
                           &diagnostics.profile_error_max, &diagnostics.motion_max, &difference, &layer_motion},

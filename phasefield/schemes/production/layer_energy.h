@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <utility>
 
 #include "phasefield/schemes/production/point_geometry.h"
@@ -12,13 +13,18 @@ inline constexpr double moment_alignment = constant("moment_alignment");
 
 /// The membrane's energy as the layer carries it, with what its equations ask for at every point.
 struct LayerEnergy {
-    explicit LayerEnergy(MembraneEnergy energy)
-        : density(std::move(energy)),
-          bare_stiffness(density.density(0, 0, 0).second[local::curvature][local::curvature]) {}
-    explicit LayerEnergy(const Parameters& parameters) : LayerEnergy(membrane_energy(parameters)) {}
+    explicit LayerEnergy(MembraneEnergy of_bending, const MembraneEnergy& of_edge = {})
+        : bending(std::move(of_bending)),
+          edge(of_edge),
+          density(MembraneEnergy(bending).add(of_edge)),
+          bare_stiffness(density.density(0, 0, 0).second[local::curvature][local::curvature]),
+          coupled(density.density(0.1, 0.4, 0.02).partial[local::squared_gradient] != 0) {}
+    explicit LayerEnergy(const Parameters& parameters)
+        : LayerEnergy(bending_energy(parameters), line_energy(parameters)) {}
 
-    MembraneEnergy density;
-    double bare_stiffness;  // ∂²e/∂κ² of the flat membrane without molecules [pN nm]
+    MembraneEnergy bending, edge, density;  // E, E_c and their sum
+    double bare_stiffness;                  // ∂²e/∂κ² of the flat membrane without molecules [pN nm]
+    bool coupled;  // knows ∇_Γ c: then δ(E + E_c)/δc drives the molecules and the membrane
 
     /// What compliance along the normal the last term of (D) has: D [nm²/(pN nm)].
     [[nodiscard]] double compliance(double epsilon) const {
@@ -38,10 +44,21 @@ Number limited_concentration(const Number& c) {
     return chain(c, edge + margin * t, 1 - t * t);
 }
 
-/// The membrane's elastic state where the moment is b: with N = −n the layer's moment is −∂e/∂κ.
+/// The membrane's elastic state where the moment is b and t·∇c is `slope`, t the tangent: with N = −n the layer's
+/// moment is −∂e/∂κ. A double well that is part of the energy holds c by itself, and must not be bent.
 template <class Number>
-ElasticState<Number> elastic_state_at(const LayerEnergy& energy, const Number& b, const Number& c) {
-    return elastic_state<Number>(energy.density, -b, limited_concentration(c), 0.0);
+ElasticState<Number> elastic_state_at(const LayerEnergy& energy, const Number& b, const Number& c,
+                                      const Number& slope) {
+    if (!energy.coupled) return elastic_state<Number>(energy.density, -b, limited_concentration(c), 0.0);
+    return elastic_state<Number>(energy.density, -b, c, slope * slope);
+}
+
+/// ∂e/∂c of bending alone [pN/nm], which molecules feel that come and go.
+template <class Number>
+Number bending_by_concentration(const LayerEnergy& energy, const ElasticState<Number>& elastic, const Number& c) {
+    if (!energy.coupled) return elastic.by_concentration;
+    const LocalJet jet = energy.bending.density(value_of(elastic.curvature), value_of(c), 0);
+    return compose_partial(jet, local::concentration, std::array<Number, local::count>{elastic.curvature, c, 0.0});
 }
 
 /// The energy (D) per volume where it is stationary over b [pN/nm²].

@@ -8,9 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "phasefield/contour/polyline.h"
 #include "phasefield/schemes/production/constants.h"
 #include "shared/model/time_scale.h"
 
@@ -113,19 +113,7 @@ ThicknessCurve::ThicknessCurve(const MembraneCurve& curve, double time, const Pa
 }
 
 double ThicknessCurve::at(double at_r, double at_z) const {
-    double least = std::numeric_limits<double>::max(), out = epsilon.front();
-    for (std::size_t i = 0; i + 1 < r.size(); ++i) {
-        const double edge_r = r[i + 1] - r[i], edge_z = z[i + 1] - z[i];
-        const double square = edge_r * edge_r + edge_z * edge_z;
-        const double projected = (at_r - r[i]) * edge_r + (at_z - z[i]) * edge_z;
-        const double t = square > 0 ? std::clamp(projected / square, 0.0, 1.0) : 0;
-        const double to_r = r[i] + t * edge_r - at_r, to_z = z[i] + t * edge_z - at_z;
-        const double distance = to_r * to_r + to_z * to_z;
-        if (distance >= least) continue;
-        least = distance;
-        out = epsilon[i] + t * (epsilon[i + 1] - epsilon[i]);
-    }
-    return out;
+    return at_closest_point(r, z, epsilon, at_r, at_z);
 }
 
 CellThickness::CellThickness(ThicknessCurve curve, const dealii::Triangulation<2>& mesh)

@@ -60,6 +60,7 @@ void ProductionScheme::save(const std::filesystem::path& directory, Checkpoint& 
     checkpoint.scalars["moved"] = moved_;
     checkpoint.scalars["steps_since_start"] = since_start_;
     checkpoint.arrays["solution_times"] = times_;
+    checkpoint.arrays["solution_masses"] = masses_;
     save_thickness(numbers_.thickness, "thickness", checkpoint);
     make_empty_directory(directory, mesh_->get_communicator());
     Transfer transfer(space_.dofs);
@@ -79,6 +80,8 @@ StepOutcome ProductionScheme::load(const std::filesystem::path& directory, const
     moved_ = checkpoint.scalar("moved");
     since_start_ = checkpoint.scalar("steps_since_start");
     times_ = checkpoint.array("solution_times");
+    masses_ = checkpoint.array("solution_masses");
+    numbers_.molecules = masses_.front();
     load_mesh(directory, *mesh_);
     renew();
     numbers_.thickness = thickness_on(*mesh_, load_thickness(checkpoint, "thickness"));

@@ -20,6 +20,7 @@ namespace {
 constexpr double last_normal_below = constant("last_normal_below");
 constexpr double last_molecules_normal_below = constant("last_molecules_normal_below");
 constexpr double shortest_gradient = constant("shortest_gradient");
+constexpr double loaded_layer = constant("loaded_layer");
 
 Direction direction(double r, double z) {
     const double length = std::max(std::hypot(r, z), shortest_gradient);
@@ -68,6 +69,8 @@ class PastFields {
                 const double w = well / (well + last_below);
                 return direction(w * r + (1 - w) * last.r, w * z + (1 - w) * last.z);
             };
+            if (step_->pole_force && well > loaded_layer)
+                points[q].pole_force = step_->pole_force->at(box.r0 + box.hr * x[0], box.z0 + box.hz * x[1]);
             points[q].normal = normal(predicted_.r[q], predicted_.z[q], last_normal_below);
             points[q].molecules_normal = normal(ahead_r_[q], ahead_z_[q], last_molecules_normal_below);
         }

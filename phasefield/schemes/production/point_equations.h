@@ -43,11 +43,12 @@ Fields<Number> point_equations(const Fields<Number>& x, double r, const PointPas
                                   psi.r * psi.r + psi.z * psi.z,
                                   inverse};
     Fields<Number> row;
-    const Number e = add_bending(x, p, energy, past, row);
-    add_flow(x, p, e, r, past, change, step, row);
+    const MolecularForce<Number> force = add_bending(x, p, energy, past, row);
+    add_flow(x, p, force.by_concentration, r, past, change, step, row);
     add_inextensibility(x, p, past, r, step, row);
     add_motion(x, p, past, step, row);
-    add_molecules(x, p, past, step, row);
+    add_molecules(x, p, past, step, energy, row);
+    add_exchange(x, p, force.elastic, step, energy, row);
     add_stretching(x, p, past, step, row);
     return row;
 }

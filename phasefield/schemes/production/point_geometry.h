@@ -28,6 +28,7 @@ struct PointPast {
     Direction molecules_normal;       // the same with the error of BDF, for c
     double slope_r = 0, slope_z = 0;  // ∇Σ_j a_j ψ(t_j)
     PointThickness thickness;         // ε, the same for all times
+    double pole_force = 0;            // along z, per area of membrane [pN/nm²]
 };
 
 /// n·∇∇ψ [1/nm] with the predicted n: how ∇ψ changes along the normal, 0 where ψ is a distance. The Jacobian holds it

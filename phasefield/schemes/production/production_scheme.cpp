@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "phasefield/layer/boundary_flux.h"
 #include "phasefield/layer/initial_membrane.h"
 #include "phasefield/output/field_file.h"
 #include "phasefield/schemes/production/bdf.h"
 #include "phasefield/schemes/production/constants.h"
+#include "phasefield/schemes/production/external_loads.h"
 #include "phasefield/schemes/production/refinement.h"
 #include "shared/model/time_scale.h"
 #include "shared/support/error.h"
@@ -124,6 +126,8 @@ StepOutcome ProductionScheme::start() {
     solutions_ = {solution};
     solutions_.front().update_ghost_values();
     times_ = {0};
+    masses_ = {molecules_of(space_, numbers_, solutions_.front())};
+    numbers_.molecules = masses_.front();
     return present();
 }
 
@@ -153,7 +157,12 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     numbers_.profile_relaxation = numbers_.rates.profile_relaxation;
     if (since_start_ > 0)
         numbers_.profile_relaxation = std::min(numbers_.profile_relaxation, relaxation_per_speed * speed_);
-    const Vector predicted = polynomial(end, std::min(order() + 1, times_.size()));
+    const std::size_t known = std::min(order() + 1, times_.size());
+    const Vector predicted = polynomial(end, known);
+    if (numbers_.loads.pole_force != 0)
+        numbers_.pole_force = std::make_shared<const PoleForce>(contour(predicted).curve, numbers_.loads);
+    const auto ahead = extrapolation_weights(end, times_, known);
+    numbers_.molecules = std::inner_product(ahead.begin(), ahead.end(), masses_.begin(), 0.0);
     // Extrapolation of higher order would amplify what little the fields go back and forth in the layer's tails: with
     // the moment's noise, whose alignment is quadratic in it, Newton's first step would throw the whole bud off course.
     Vector guess = polynomial(end, std::min(guess_points, times_.size()));
@@ -173,6 +182,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     measures.diagnostics.extracellular_inflow =
         extracellular_inflow(space_, trial_, velocity_r, velocity_z, distance,
                              [this](double psi) { return equilibrium_profile(psi, parameters_.phase_field.epsilon); });
+    measures.diagnostics.load_power = load_power(space_, numbers_, history, trial_);
     trial_integrals_ = measures.integrals;
     trial_motion_ = measures.layer_motion;
     const double farthest = largest_motion * parameters_.phase_field.epsilon;
@@ -199,12 +209,15 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
 void ProductionScheme::keep(double time, double tau, const StepOutcome& outcome) {
     solutions_.insert(solutions_.begin(), trial_);
     times_.insert(times_.begin(), time + tau);
+    masses_.insert(masses_.begin(), trial_integrals_.molecules);
     if (times_.size() > highest_order + 1) {
         solutions_.pop_back();
         times_.pop_back();
+        masses_.pop_back();
     }
     for (const auto& solution : solutions_) solution.update_ghost_values();  // copies do not have them
     integrals_ = trial_integrals_;
+    if (!numbers_.exchange.none() || energy_.coupled) moved_ += edge_motion(membrane_, outcome.contour.curve);
     membrane_ = outcome.contour.curve;
     // A step that was cut short by a deadline does not shorten the next one.
     const double next = trial_factor_ * tau;

@@ -58,6 +58,7 @@ class ProductionScheme : public Scheme {
     StepSolver solver_;
     std::vector<Vector> solutions_;  // newest first
     std::vector<double> times_;      // of them [µs]
+    std::vector<double> masses_;     // ∫ c dA of them [nm²]
     LayerIntegrals integrals_{};
     MembraneCurve membrane_;
 

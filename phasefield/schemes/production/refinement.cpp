@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "phasefield/fem/flow_domain.h"
 #include "phasefield/schemes/production/constants.h"
@@ -86,6 +87,22 @@ Indices patch_edge(const MembraneCurve& curve) {
 }
 
 }  // namespace
+
+double edge_motion(const MembraneCurve& before, const MembraneCurve& after) {
+    const auto edge = [](const MembraneCurve& curve) -> std::optional<PlanePoint> {
+        for (std::size_t i = curve.size(); i > 1; --i) {
+            const double outer = curve.c[i - 1] - 0.5, inner = curve.c[i - 2] - 0.5;
+            if (outer < 0 && inner >= 0) {
+                const double t = inner / (inner - outer);
+                return PlanePoint{curve.r[i - 2] + t * (curve.r[i - 1] - curve.r[i - 2]),
+                                  curve.z[i - 2] + t * (curve.z[i - 1] - curve.z[i - 2])};
+            }
+        }
+        return {};
+    };
+    const auto from = edge(before), to = edge(after);
+    return from && to ? std::hypot(to->r - from->r, to->z - from->z) : 0;
+}
 
 double follow_after_motion(const Parameters& p) {
     return (p.fluid.dynamics == Dynamics::flow ? motion_with_flow : motion_without_flow) * p.phase_field.epsilon;

@@ -17,4 +17,7 @@ double follow_after_motion(const Parameters& parameters);
 /// dissipation.
 std::vector<RefinedBand> refined_bands(const MembraneCurve& curve, const Parameters& parameters);
 
+/// How far the edge of the coat, c = ½, is from where it was [nm]; 0 where one of the membranes has none.
+double edge_motion(const MembraneCurve& before, const MembraneCurve& after);
+
 }  // namespace endoflow::phasefield::production

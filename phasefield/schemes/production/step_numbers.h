@@ -5,7 +5,10 @@
 
 #include "phasefield/schemes/production/layer_thickness.h"
 #include "phasefield/schemes/production/membrane_weight.h"
+#include "phasefield/schemes/production/pole_force.h"
 #include "phasefield/schemes/production/rates.h"
+#include "shared/model/exchange.h"
+#include "shared/model/loads.h"
 #include "shared/model/transport_law.h"
 #include "shared/parameters/parameters.h"
 
@@ -20,6 +23,8 @@ struct StepNumbers {
           fluid(p.fluid),
           normal_diffusivity(p.molecules.normal_diffusivity),
           transport(transport_law(p.molecules)),
+          exchange(p.molecules),
+          loads(loads_of(p)),
           weight(membrane),
           rates(scheme_rates(p)),
           profile_relaxation(rates.profile_relaxation),
@@ -30,11 +35,15 @@ struct StepNumbers {
     FluidParameters fluid;
     double normal_diffusivity;  // of c, at least [nm²/µs]
     TransportLaw transport;
+    ExchangeLaw exchange;
+    Loads loads;
     MembraneWeight weight;
     SchemeRates rates;
     double profile_relaxation;                         // M of this step [nm/µs]
     bool inextensible;                                 // s is one but for what the tension leaves
+    double molecules = 0;                              // ∫ c dA, predicted [nm²]: what the pool has lost
     std::shared_ptr<const CellThickness> thickness{};  // of the layer; none: uniform
+    std::shared_ptr<const PoleForce> pole_force{};     // none: zero
 
     /// ε at the point (x, y) of a unit cell.
     [[nodiscard]] PointThickness thickness_at(std::size_t active_cell, const CellBox& box, double x, double y) const {

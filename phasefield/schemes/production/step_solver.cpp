@@ -38,7 +38,9 @@ Vector StepSolver::factorise(const Problem& problem, const Vector& solution) {
     const auto& history = *problem.history;
     origin_ = {problem.numbers->rate,
                problem.numbers->profile_relaxation,
+               problem.numbers->molecules,
                problem.numbers->thickness,
+               problem.numbers->pole_force,
                history.weights,
                history.ahead,
                {solution}};
@@ -137,7 +139,9 @@ std::vector<const Vector*> StepSolver::save(Checkpoint& checkpoint) const {
     checkpoint.scalars["factors_full_precision"] = system_.precision() == Precision::full ? 1 : 0;
     checkpoint.scalars["factors_rate"] = origin_.rate;
     checkpoint.scalars["factors_profile_relaxation"] = origin_.profile_relaxation;
+    checkpoint.scalars["factors_molecules"] = origin_.molecules;
     save_thickness(origin_.thickness, "factors_thickness", checkpoint);
+    if (origin_.pole_force) origin_.pole_force->save("factors_pole_force", checkpoint);
     checkpoint.arrays["factors_weights"] = there ? origin_.weights : std::vector<double>{};
     checkpoint.arrays["factors_ahead"] = there ? origin_.ahead : std::vector<double>{};
     std::vector<const Vector*> out;
@@ -158,6 +162,8 @@ void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint&
     numbers.rate = checkpoint.scalar("factors_rate");
     numbers.profile_relaxation = checkpoint.scalar("factors_profile_relaxation");
     numbers.thickness = thickness_on(space.dofs.get_triangulation(), load_thickness(checkpoint, "factors_thickness"));
+    numbers.molecules = checkpoint.scalar("factors_molecules");
+    numbers.pole_force = PoleForce::load(checkpoint, "factors_pole_force", numbers.loads);
     const std::vector<Vector> solutions(vectors.begin() + vectors_of_guess, vectors.end());
     const StepPast history(space, numbers, solutions, checkpoint.array("factors_weights"),
                            checkpoint.array("factors_ahead"), vectors[1]);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "phasefield/schemes/production/point_geometry.h"
+#include "phasefield/schemes/production/layer_energy.h"
 
 namespace endoflow::phasefield::production {
 
@@ -56,11 +56,12 @@ void add_redistribution(const Number& c, const AtPoint<Number>& s, const PointGe
 }
 
 /// (40), (41), or (39), or (14): δ_m c is conserved under the case's transport law. The potential is a field of its own
-/// where it holds ∇_Γ c. The diffusion along the membrane ends where δ_m does: on the coarse cells beyond, the double
-/// well would have several solutions where the layers of bud and plane meet.
+/// where it holds ∇_Γ c; that of a coupled energy is add_bending's. The diffusion along the membrane ends where δ_m
+/// does: on the coarse cells beyond, the double well would have several solutions where the layers of bud and plane
+/// meet.
 template <class Number>
 void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, const PointPast& past,
-                   const StepNumbers& step, Fields<Number>& row) {
+                   const StepNumbers& step, const LayerEnergy& energy, Fields<Number>& row) {
     const auto &c = x[molecule_density], &mu = x[molecule_potential];
     add_transport(c.value, x, p, past, past.molecules, step, row[molecule_density]);
     const Number phi2 = p.layer.phi * p.layer.phi, weight = cut_density(p.layer);
@@ -68,17 +69,29 @@ void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, cons
                   row[molecule_density]);
     add_diffusion(c, step.rates.molecule_leak * (phi2 * phi2), row[molecule_density]);
     if (step.inextensible) add_redistribution(c.value, x[membrane_stretch], p, weight, step, row[molecule_density]);
-    row[molecule_potential].value = p.surface * mu.value;
     const TransportLaw& law = step.transport;
     const ValueAndDerivatives local = law.potential(value_of(c.value));
     if (law.edge_width > 0) {
         add_surface_diffusion<Number>(mu, law.mobility * weight, p, row[molecule_density]);
-        row[molecule_potential].value = p.surface * mu.value - p.layer.delta * chain(c.value, local.value, local.first);
-        add_surface_diffusion<Number>(c, -law.edge_width * p.layer.delta, p, row[molecule_potential]);
     } else if (law.mobility > 0) {
         const Number diffusivity = chain(c.value, local.first, local.second);
         add_surface_diffusion<Number>(c, law.mobility * diffusivity * weight, p, row[molecule_density]);
     }
+    if (energy.coupled) return;
+    row[molecule_potential].value = p.surface * mu.value;
+    if (law.edge_width == 0) return;
+    row[molecule_potential].value = p.surface * mu.value - p.layer.delta * chain(c.value, local.value, local.first);
+    add_surface_diffusion<Number>(c, -law.edge_width * p.layer.delta, p, row[molecule_potential]);
+}
+
+/// Molecules that come from outside and leave, δ_m j.
+template <class Number>
+void add_exchange(const Fields<Number>& x, const PointGeometry<Number>& p, const ElasticState<Number>& elastic,
+                  const StepNumbers& step, const LayerEnergy& energy, Fields<Number>& row) {
+    if (step.exchange.none()) return;
+    const Number& c = x[molecule_density].value;
+    const Number rate = step.exchange.rate<Number>(c, bending_by_concentration(energy, elastic, c), step.molecules);
+    row[molecule_density].value = row[molecule_density].value - p.density * rate;
 }
 
 /// (38): δ_m s is the membrane's material; where it enters at the rim s = 1.

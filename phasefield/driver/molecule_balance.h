@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "shared/output/checkpoint.h"
+
+namespace endoflow::phasefield {
+
+/// Whether the membrane's molecules are those that it had and those that have come since. What has come is the integral
+/// of the cubic through the last four rates, whatever the scheme makes of them.
+class MoleculeBalance {
+  public:
+    /// At the start: ∫ c dA [nm²] and ∫ j dA [nm²/µs].
+    void start(double mass, double rate);
+    /// The rate at the end of a step [nm²/µs], time in µs.
+    void advance(double time, double rate);
+
+    [[nodiscard]] double exchanged() const { return exchanged_; }  // since the start [nm²]
+    /// |mass − first mass − what has come| over the first mass.
+    [[nodiscard]] double residual(double mass) const;
+
+    void save(Checkpoint& checkpoint) const;
+    void load(const Checkpoint& checkpoint);
+
+  private:
+    double first_mass_ = 0, exchanged_ = 0;
+    std::vector<double> times_, rates_;  // newest first
+};
+
+}  // namespace endoflow::phasefield

@@ -1,0 +1,78 @@
+#include "phasefield/schemes/production/external_loads.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include "phasefield/layer/boundary_flux.h"
+#include "phasefield/schemes/production/assembly.h"
+
+namespace endoflow::phasefield::production {
+
+namespace {
+
+constexpr unsigned int outer_face = 1;  // of a cell, towards larger r
+
+}  // namespace
+
+RimTension::RimTension(const Space& space, const StepNumbers& step)
+    : space_(&space),
+      step_(&step),
+      quadrature_(face_quadrature(outer_face, gauss_points(step.numerics))),
+      shapes_(space.degrees[velocity_r], quadrature_),
+      psi_(space, distance, quadrature_),
+      u_r_(space, velocity_r, quadrature_) {}
+
+template <class Visit>
+void RimTension::on_side(const Cell& cell, const Vector& solution, const Visit& visit) {
+    const double sigma = step_->loads.rim_tension;
+    if (sigma == 0 || !cell->face(outer_face)->at_boundary()) return;
+    const CellBox box = cell_box(cell);
+    const auto& psi = psi_.on(cell, box, solution);
+    for (unsigned int q = 0; q < quadrature_.size(); ++q) {
+        const double epsilon = step_->thickness_at(cell->active_cell_index(), box, 1, quadrature_.point(q)[1]).value;
+        const double density = membrane_density(layer_profile(psi.value[q], epsilon), step_->weight);
+        visit(q, quadrature_.weight(q) * box.hz * (box.r0 + box.hr) * sigma * density);
+    }
+}
+
+void RimTension::add(const Cell& cell, const Vector& solution, dealii::Vector<double>& right_hand_side) {
+    const auto& unknowns_of_cell = space_->local[velocity_r];
+    on_side(cell, solution, [&](unsigned int q, double force) {
+        for (unsigned int i = 0; i < shapes_.n_dofs; ++i)
+            right_hand_side(unknowns_of_cell[i]) += force * shapes_.value[q * shapes_.n_dofs + i];
+    });
+}
+
+double RimTension::power(const Cell& cell, const Vector& solution) {
+    double sum = 0;
+    const auto& u_r = u_r_.on(cell, cell_box(cell), solution);
+    on_side(cell, solution, [&](unsigned int q, double force) { sum += two_pi * force * u_r.value[q]; });
+    return sum;
+}
+
+double load_power(const Space& space, const StepNumbers& step, const StepPast& history, const Vector& solution) {
+    if (step.loads.none()) return 0;
+    const dealii::QGauss<2> quadrature(gauss_points(step.numerics));
+    ComponentField level(space, distance, quadrature), radial(space, velocity_r, quadrature),
+        axial(space, velocity_z, quadrature);
+    RimTension rim(space, step);
+    double sum = 0;
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        const CellBox box = cell_box(cell);
+        const auto &psi = level.on(cell, box, solution), &u_r = radial.on(cell, box, solution),
+                   &u_z = axial.on(cell, box, solution);
+        const auto& past = history.points.at(cell->active_cell_index());
+        for (unsigned int q = 0; q < quadrature.size(); ++q) {
+            const double r = box.r0 + box.hr * quadrature.point(q)[0];
+            const double density = membrane_density(layer_profile(psi.value[q], past[q].thickness.value), step.weight);
+            const double pushed = -step.loads.pressure * (psi.r[q] * u_r.value[q] + psi.z[q] * u_z.value[q]);
+            sum += two_pi * quadrature.weight(q) * box.hr * box.hz * r * density *
+                   (pushed + past[q].pole_force * u_z.value[q]);
+        }
+        sum += rim.power(cell, solution);
+    }
+    return dealii::Utilities::MPI::sum(sum, space.dofs.get_communicator());
+}
+
+}  // namespace endoflow::phasefield::production

@@ -1,0 +1,188 @@
+// The equations of the production scheme at a point: forces from any energy, the exact Jacobian.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "one_step.h"
+#include "phasefield/schemes/production/point_equations.h"
+#include "some_point.h"
+
+using namespace endoflow;
+using namespace endoflow::phasefield;
+using namespace endoflow::phasefield::production;
+
+namespace {
+
+/// Stiffer at high curvatures and where c changes: a term that the scheme has never heard of.
+struct StiffeningTerm {
+    double strength, edge;
+
+    template <class Number>
+    [[nodiscard]] Number density(const LocalShape<Number>& x) const {
+        const Number squared = x.curvature * x.curvature;
+        return strength * (1.0 + x.concentration) * squared * squared + edge * (x.squared_gradient * (1.0 + squared));
+    }
+};
+
+/// ½ γ κ².
+struct AddedStiffness {
+    double gamma;
+
+    template <class Number>
+    [[nodiscard]] Number density(const LocalShape<Number>& x) const {
+        return 0.5 * gamma * x.curvature * x.curvature;
+    }
+};
+
+Parameters coupled() {
+    Parameters p;
+    p.molecules.coupling = Coupling::energetic;
+    p.molecules.line_energy = 20;
+    p.molecules.mobility = 10;
+    return p;
+}
+
+Parameters growing(Exchange exchange) {
+    Parameters p = coupled();
+    p.molecules.exchange = exchange;
+    p.molecules.on_rate = 30;
+    p.molecules.off_rate = 20;
+    p.molecules.edge_speed = 40;
+    p.molecules.curvature_sensing = 0.5;
+    p.molecules.molecule_area = 10;
+    p.molecules.pool_area = 9000;
+    return p;
+}
+
+Parameters loaded() {
+    Parameters p;
+    p.membrane.rim_tension = 0.05;
+    p.fluid.pressure_difference = 0.3;
+    p.membrane.pole_force = 20;
+    p.fluid.inertia = true;
+    p.fluid.density = 1;  // large enough to be seen
+    return p;
+}
+
+Parameters of(Transport transport) {
+    Parameters p;
+    p.molecules.transport = transport;
+    p.molecules.mobility = 10;
+    return p;
+}
+
+StepNumbers numbers(Parameters p) {
+    p.phase_field.production.profile_relaxation = p.phase_field.production.stretching_alignment = 10;
+    StepNumbers step = step_numbers(p, 40, 10);
+    step.molecules = 4000;
+    return step;
+}
+
+PointPast some_past(const Parameters& p) {
+    PointPast past;
+    past.thickness = {p.phase_field.epsilon, 0.05, -0.08};
+    past.normal = past.molecules_normal = {0.5, 0.6};
+    past.slope_r = 0.1;
+    past.slope_z = 0.05;
+    past.pole_force = p.membrane.pole_force;
+    return past;
+}
+
+void check_jacobian(const Parameters& p, const LayerEnergy& energy) {
+    const PointPast past = some_past(p);
+    const StepNumbers step = numbers(p);
+    const GradientChange change{0.3, -0.2};
+    const auto rows_at = [&](const auto& x) { return point_equations(x, 7.0, past, change, step, energy); };
+    const auto x = some_point();
+    Fields<Dual<n_features>> seeded;
+    for (std::size_t k = 0; k < n_features; ++k) {
+        auto xk = x;
+        part(seeded[k / 3], k % 3) = Dual<n_features>::variable(part(xk[k / 3], k % 3), k);
+    }
+    auto rows = rows_at(seeded);
+    constexpr double h = 1e-5;
+    for (std::size_t k = 0; k < n_features; ++k) {
+        auto up = x, down = x;
+        part(up[k / 3], k % 3) += h;
+        part(down[k / 3], k % 3) -= h;
+        auto above = rows_at(up), below = rows_at(down);
+        for (std::size_t i = 0; i < n_features; ++i) {
+            const double difference = (part(above[i / 3], i % 3) - part(below[i / 3], i % 3)) / (2 * h);
+            CAPTURE(i, k);
+            // Central differences: step² times third derivatives of order 1e3, and round-off over the step.
+            CHECK(part(rows[i / 3], i % 3).partial[k] == Approx(difference).epsilon(1e-5).margin(1e-4));
+        }
+    }
+}
+
+/// Rows of b, G and of a coupled μ against differences of the two-field energy that add_bending() documents.
+void check_variation(const LayerEnergy& energy) {
+    const Parameters p;
+    const double epsilon = p.phase_field.epsilon;
+    PointPast past = some_past(p);
+    const PointThickness thickness = past.thickness;
+    const auto integrand = [&](const Fields<double>& x) {
+        const auto &psi = x[distance], &b = x[Field::moment], &c = x[molecule_density];
+        const auto layer = layer_profile(psi.value, epsilon);
+        const auto weight = energy_weight(layer, psi.value, epsilon);
+        const auto sheet = sheet_gradient(psi, thickness);
+        const double along = (c.z * sheet.r - c.r * sheet.z) / std::hypot(sheet.r, sheet.z, gradient_floor);
+        const double conjugate = energy.density.conjugate(-b.value, c.value, along * along).value;
+        const double squared = psi.r * psi.r + psi.z * psi.z;
+        return weight.value * (-conjugate - psi.r * b.r - psi.z * b.z) - 0.5 * weight.first * (1 + squared) * b.value -
+               weight.thickness * b.value * (thickness.r * psi.r + thickness.z * psi.z) -
+               0.5 * energy.compliance(epsilon) * weight.value * std::pow(psi.r * b.r + psi.z * b.z, 2) -
+               0.5 * energy.smoothing(epsilon) * (b.r * b.r + b.z * b.z);
+    };
+    auto x = some_point();
+    x[normal_force] = x[molecule_potential] = {};  // their own terms are not the energy's
+    auto rows = point_equations(x, 7.0, past, {}, numbers(p), energy);
+    const auto check = [&](Field field, Field row_of) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            constexpr double h = 1e-5;
+            auto up = x, down = x;
+            part(up[field], k) += h;
+            part(down[field], k) -= h;
+            const double derivative = (integrand(up) - integrand(down)) / (2 * h);
+            CAPTURE(field, k);
+            // Rows are written with the sign of the other side. h² times third derivatives of order 10, and round-off
+            // over h.
+            CHECK(-part(rows[row_of], k) == Approx(derivative).epsilon(1e-7).margin(1e-7));
+        }
+    };
+    check(distance, normal_force);
+    check(Field::moment, Field::moment);
+    if (energy.coupled) check(molecule_density, molecule_potential);
+}
+
+}  // namespace
+
+TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
+    for (const Parameters& p : {of(Transport::cahn_hilliard), of(Transport::fickian), of(Transport::advection),
+                                loaded(), coupled(), growing(Exchange::reservoir), growing(Exchange::edge)})
+        check_jacobian(p, LayerEnergy(p));
+    const Parameters p;
+    check_jacobian(p, LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 3})));
+}
+
+TEST_CASE("forces are the variation of the energy, whatever its terms", "[production]") {
+    const Parameters p;
+    check_variation(LayerEnergy(p));
+    check_variation(LayerEnergy(coupled()));
+    check_variation(LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 0})));
+    check_variation(LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 3})));
+}
+
+TEST_CASE("a membrane that a term makes stiffer is a stiffer membrane", "[production]") {
+    // ½ γ κ² added to ½ β κ² is ½ (β + γ) κ²: the same equations to round-off.
+    Parameters soft, stiff;
+    soft.membrane.spontaneous_curvature = stiff.membrane.spontaneous_curvature = 0;
+    soft.membrane.bending_stiffness_coated = soft.membrane.bending_stiffness;
+    stiff.membrane.bending_stiffness = stiff.membrane.bending_stiffness_coated = 3 * soft.membrane.bending_stiffness;
+    const double beta = BendingModel(soft.membrane).stiffness(0).value;
+    const LayerEnergy added(membrane_energy(soft).add(AddedStiffness{2 * beta})), stiffer(stiff);
+    auto one = point_equations(some_point(), 7.0, some_past(soft), {}, numbers(soft), added),
+         other = point_equations(some_point(), 7.0, some_past(soft), {}, numbers(soft), stiffer);
+    for (std::size_t i = 0; i < n_features; ++i)
+        CHECK(part(one[i / 3], i % 3) == Approx(part(other[i / 3], i % 3)).epsilon(1e-12).margin(1e-12));
+}

@@ -1,0 +1,39 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "phasefield/driver/history.h"
+
+using namespace endoflow;
+using namespace endoflow::phasefield;
+
+TEST_CASE("docs/outputs.md has the phase field's columns", "[history]") {
+    std::ostringstream page;
+    page << std::ifstream(ENDOFLOW_DOCS "/outputs.md").rdbuf();
+    CHECK_THAT(page.str(), Catch::Matchers::Contains(columns_as_markdown(own_history_columns())));
+}
+
+TEST_CASE("what has come is the integral of the rates", "[history]") {
+    // Cubics are integrated exactly once four rates are known; here they are known from the start: 1 + 2t − t² + 4t³.
+    const auto mass = [](double t) { return 100 + t + t * t - t * t * t / 3 + t * t * t * t; };
+    const auto rate = [](double t) { return 1 + 2 * t - t * t + 4 * t * t * t; };
+    const auto came = [&](double first, double last) {
+        MoleculeBalance balance;
+        balance.start(100, rate(0));
+        for (const double t : {0.25 * first, 0.5 * first, first, last}) balance.advance(t, rate(t));
+        return balance;
+    };
+    // Of the first two steps, as long as the errors of lower order are small.
+    CHECK(came(1e-4, 0.7).exchanged() == Approx(mass(0.7) - 100).epsilon(1e-9));
+    CHECK(came(1e-4, 0.7).residual(mass(0.7)) < 1e-10);
+    CHECK(came(1e-4, 0.7).residual(mass(0.7) + 1) == Approx(0.01).epsilon(1e-6));
+
+    Checkpoint checkpoint;
+    MoleculeBalance continued, whole = came(1e-4, 0.7);
+    whole.save(checkpoint);
+    continued.load(checkpoint);
+    whole.advance(0.9, rate(0.9));
+    continued.advance(0.9, rate(0.9));
+    CHECK(continued.exchanged() == whole.exchanged());
+}

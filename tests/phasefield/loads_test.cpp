@@ -1,0 +1,95 @@
+// Rim tension, pressure and pole force on the layer: their virtual work, and the energy law of a run.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "one_step.h"
+#include "phasefield/schemes/production/external_loads.h"
+#include "run_steps.h"
+#include "shared/geometry/observables.h"
+#include "small_case.h"
+
+using namespace endoflow;
+using namespace endoflow::phasefield;
+using namespace endoflow::phasefield::production;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// The loads' power on the flat membrane of the small case when the velocity is u_r(r), u_z(r).
+template <class Radial, class Axial>
+double power(const Parameters& p, const Radial& u_r, const Axial& u_z) {
+    const OneStep one(p, 1e-9);
+    StepNumbers numbers = step_numbers(p, 2000, 1000);
+    MembraneCurve membrane;
+    for (double r = 0; r <= p.domain.radius; r += 0.125) {
+        membrane.r.push_back(r);
+        membrane.z.push_back(p.domain.membrane_height);
+    }
+    numbers.pole_force = std::make_shared<const PoleForce>(membrane, numbers.loads);
+    Vector x = one.space.vector();
+    interpolate(
+        one.space, distance, [&](double, double z) { return p.domain.membrane_height - z; }, x);
+    interpolate(
+        one.space, velocity_r, [&](double r, double) { return u_r(r); }, x);
+    interpolate(
+        one.space, velocity_z, [&](double r, double) { return u_z(r); }, x);
+    finish_interpolation(one.space, x);
+    x.update_ghost_values();
+    const std::vector<Vector> past{x};
+    past.front().update_ghost_values();
+    const StepPast history(one.space, numbers, past, {-2000}, {1}, past.front());
+    return load_power(one.space, numbers, history, x);
+}
+
+}  // namespace
+
+TEST_CASE("every load does its virtual work", "[loads]") {
+    // δG = σ δA − p δV − F δz̄ of the flat membrane: exact integrals. Gauss points on cells of ε leave some 1e-4 of the
+    // integral of δ_m across the layer.
+    Parameters none = small_case();
+    none.phase_field.far_refinements = 0;
+    const double R = none.domain.radius;
+    const auto bulge = [&](double r) { return 3 * (1 - r * r / (R * R)); };
+    const auto inwards = [&](double r) { return -2 * r / R; };
+    CHECK(power(none, inwards, bulge) == 0);
+
+    Parameters tension = none;
+    tension.membrane.rim_tension = 0.05;
+    CHECK(power(tension, inwards, bulge) == Approx(-0.05 * 2 * pi * R * 2).epsilon(1e-3));
+
+    Parameters pressure = none;
+    pressure.fluid.pressure_difference = 0.01;
+    CHECK(power(pressure, inwards, bulge) == Approx(0.01 * 3 * pi * R * R / 2).epsilon(1e-3));
+
+    Parameters force = none;
+    force.membrane.pole_force = 20;
+    // 3 F ∫ (1 − r²/R²) exp(−r²/w²) 2r dr/w², which is 1e-28 beyond the rim.
+    const double w = force.membrane.pole_force_width;
+    CHECK(power(force, inwards, bulge) == Approx(20 * 3 * (1 - w * w / (R * R))).epsilon(1e-3));
+}
+
+TEST_CASE("a bud under loads obeys the energy law, and the rim has its tension", "[loads]") {
+    Parameters p = small_case();
+    p.membrane.rim_tension = 0.5;
+    p.fluid.pressure_difference = 0.01;
+    p.membrane.pole_force = 20;
+    ProductionScheme scheme(p, MPI_COMM_SELF);
+    double energy = scheme.start().diagnostics.bending_energy, loss_rate = 0, rim = 0, pole = 0;
+    int count = 0;
+    run_steps(scheme, 3e-4, [&](double, double tau, const StepOutcome& outcome) {
+        const auto& seen = outcome.diagnostics;
+        const double before = loss_rate, loss = (energy - seen.bending_energy) / tau;
+        loss_rate = seen.viscous_dissipation + seen.tension_power - seen.transport_power - seen.load_power;
+        // (21) with the loads' power, by the trapezoidal rule, as without loads.
+        if (++count > 4) CHECK(loss == Approx(0.5 * (loss_rate + before)).epsilon(0.005));
+        energy = seen.bending_energy;
+        rim = outcome.contour.curve.lambda.back();
+        pole = seen.load_power;
+    });
+    CHECK(count > 6);
+    CHECK(rim == Approx(0.5).epsilon(0.1));
+    CHECK(pole > 0);
+}
