@@ -173,6 +173,40 @@ TEST_CASE("forces are the variation of the energy, whatever its terms", "[produc
     check_variation(LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 3})));
 }
 
+TEST_CASE("where the layer's thickness changes the fluid feels the energy's derivative by it", "[production]") {
+    const Parameters p;
+    const LayerEnergy energy(p);
+    const StepNumbers step = numbers(p);
+    const PointPast past = some_past(p);
+    const auto x = some_point();
+    const auto &psi = x[distance], &b = x[Field::moment];
+    const GradientChange change{0, 0, 0.07};
+    // Per volume, before the Laplacian of ψ is integrated by parts.
+    const auto integrand = [&](double epsilon) {
+        const auto weight = energy_weight(layer_profile(psi.value, epsilon), psi.value, epsilon);
+        const double conjugate = energy.density.conjugate(-b.value, x[molecule_density].value, 0).value;
+        const double slope = psi.r * b.r + psi.z * b.z, defect = 1 - psi.r * psi.r - psi.z * psi.z;
+        return weight.value * (b.value * change.laplacian - conjugate) - 0.5 * weight.first * b.value * defect -
+               0.5 * energy.compliance(epsilon) * weight.value * slope * slope;
+    };
+    Fields<double> rows;
+    const auto force =
+        add_bending(x, point_geometry(psi, past.thickness, step.weight), energy, past, change, rows).by_thickness;
+    constexpr double h = 1e-4;
+    const double epsilon = p.phase_field.epsilon,
+                 derivative = (integrand(epsilon + h) - integrand(epsilon - h)) / (2 * h);
+    CHECK(std::abs(derivative) > 0.01);
+    CHECK(force == Approx(derivative).epsilon(1e-6));  // h² times third derivatives, some 10 times as large
+
+    // With E_ε nothing else depends on Δψ: it acts along ∇ε.
+    const auto with = point_equations(x, 7.0, past, change, step, energy),
+               without = point_equations(x, 7.0, past, {}, step, energy);
+    const double by_curvature = with[velocity_r].value - without[velocity_r].value;
+    CHECK(std::abs(by_curvature) > 1e-6);
+    CHECK(with[velocity_z].value - without[velocity_z].value ==
+          Approx(by_curvature * past.thickness.z / past.thickness.r).epsilon(1e-9));
+}
+
 TEST_CASE("a membrane that a term makes stiffer is a stiffer membrane", "[production]") {
     // ½ γ κ² added to ½ β κ² is ½ (β + γ) κ²: the same equations to round-off.
     Parameters soft, stiff;

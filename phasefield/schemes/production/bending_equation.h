@@ -4,6 +4,14 @@
 
 namespace endoflow::phasefield::production {
 
+/// What the fluid feels beside G ∇ψ, and the elastic state.
+template <class Number>
+struct BendingForces {
+    Number by_concentration;  // ∂e/∂c or μ, cut off in the tails [pN/nm]
+    Number by_thickness;      // E_ε per volume [pN/nm³]
+    ElasticState<Number> elastic;
+};
+
 /// The membrane's energy as a functional of ψ, the moment b and c whose stationary value over b is E:
 ///
 ///   E = ∫ w (b h − e*(−b, c)) − ½ D w (∇ψ·∇b)² dx,   h = Δψ − w' (1 − |∇ψ|²)/(2w),   w the weight above,
@@ -19,16 +27,13 @@ namespace endoflow::phasefield::production {
 ///
 /// An energy that knows the gradient along the sheets, t·∇c, has ∂E/∂c with a divergence in it: μ is then the field
 /// whose row this is, w μ = ∂E/∂c, and takes the place of ∂e/∂c in the force. The sheets' direction depends on ψ; what
-/// that adds to G vanishes where c is constant along the normal. Returns ∂e/∂c or μ [pN/nm], cut off in the tails, too,
-/// and the elastic state.
+/// that adds to G vanishes where c is constant along the normal.
+///
+/// E depends on ε, too. The fluid feels E_ε ∇ε, E_ε = ∂E/∂ε at given ψ, b and c, as it feels e ∇c: then what translates
+/// membrane, molecules and thickness together changes no energy, and the layer exerts no net force of its own.
 template <class Number>
-struct MolecularForce {
-    Number by_concentration;
-    ElasticState<Number> elastic;
-};
-template <class Number>
-MolecularForce<Number> add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const LayerEnergy& energy,
-                                   const PointPast& past, Fields<Number>& row) {
+BendingForces<Number> add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const LayerEnergy& energy,
+                                  const PointPast& past, const GradientChange& change, Fields<Number>& row) {
     const auto &psi = x[distance], &b = x[moment];
     const auto& c = x[molecule_density];
     const Number along = c.z * p.normal_r - c.r * p.normal_z;
@@ -55,7 +60,10 @@ MolecularForce<Number> add_bending(const Fields<Number>& x, const PointGeometry<
     row[normal_force].value += (0.5 * compliance) * w.first * slope * slope;
     row[normal_force].r += flux * b.r;
     row[normal_force].z += flux * b.z;
-    if (!energy.coupled) return {w.kept * elastic.by_concentration, elastic};
+    const Number by_thickness = w.thickness * (change.laplacian * b.value - conjugate) -
+                                w.thickness_1 * b.value * (1.0 - mean) -
+                                compliance * (0.5 * w.thickness + (1 / p.epsilon) * w.value) * slope * slope;
+    if (!energy.coupled) return {w.kept * elastic.by_concentration, by_thickness, elastic};
 
     const Number line = 2.0 * w.value * elastic.by_squared_gradient * along, turning = line * p.inverse_gradient;
     const Number by_r = turning * (c.z - along * p.normal_r), by_z = -1.0 * turning * (c.r + along * p.normal_z);
@@ -65,7 +73,7 @@ MolecularForce<Number> add_bending(const Fields<Number>& x, const PointGeometry<
     const Number& mu = x[molecule_potential].value;
     row[molecule_potential] = {(w.value + surface_floor / p.epsilon) * mu - w.value * elastic.by_concentration,
                                line * p.normal_z, -1.0 * line * p.normal_r};
-    return {w.kept * mu, elastic};
+    return {w.kept * mu, by_thickness, elastic};
 }
 
 }  // namespace endoflow::phasefield::production

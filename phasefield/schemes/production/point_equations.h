@@ -27,24 +27,10 @@ namespace endoflow::phasefield::production {
 template <class Number>
 Fields<Number> point_equations(const Fields<Number>& x, double r, const PointPast& past, const GradientChange& change,
                                const StepNumbers& step, const LayerEnergy& energy) {
-    const auto& psi = x[distance];
-    const double epsilon = past.thickness.value;
-    const SheetGradient<Number> sheet = sheet_gradient(psi, past.thickness);
-    const Number inverse = inverse_root(sheet.r * sheet.r + sheet.z * sheet.z + gradient_floor * gradient_floor);
-    const auto layer = layer_profile(psi.value, epsilon);
-    const Number density = membrane_density(layer, step.weight);
-    const PointGeometry<Number> p{epsilon,
-                                  layer,
-                                  layer.delta + surface_floor / epsilon,
-                                  density,
-                                  chain(psi.value, cut_indicator(value_of(layer.phi), step.weight), value_of(density)),
-                                  sheet.r * inverse,
-                                  sheet.z * inverse,
-                                  psi.r * psi.r + psi.z * psi.z,
-                                  inverse};
+    const PointGeometry<Number> p = point_geometry(x[distance], past.thickness, step.weight);
     Fields<Number> row;
-    const MolecularForce<Number> force = add_bending(x, p, energy, past, row);
-    add_flow(x, p, force.by_concentration, r, past, change, step, row);
+    const BendingForces<Number> force = add_bending(x, p, energy, past, change, row);
+    add_flow(x, p, force, r, past, change, step, row);
     add_inextensibility(x, p, past, r, step, row);
     add_motion(x, p, past, step, row);
     add_molecules(x, p, past, step, energy, row);

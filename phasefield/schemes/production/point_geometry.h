@@ -31,10 +31,11 @@ struct PointPast {
     double pole_force = 0;            // along z, per area of membrane [pN/nm²]
 };
 
-/// n·∇∇ψ [1/nm] with the predicted n: how ∇ψ changes along the normal, 0 where ψ is a distance. The Jacobian holds it
-/// fixed.
+/// What the equations need of ψ's second derivatives [1/nm]: n·∇∇ψ with the predicted n, how ∇ψ changes along the
+/// normal, 0 where ψ is a distance, and Δψ. The Jacobian holds both fixed.
 struct GradientChange {
     double r = 0, z = 0;
+    double laplacian = 0;
 };
 
 inline constexpr double surface_floor = constant("surface_floor");
@@ -69,6 +70,26 @@ struct PointGeometry {
     Number indicator;                                               // ∫ δ_m dψ
     Number normal_r, normal_z, squared_gradient, inverse_gradient;  // of the sheets: g/|g|; |∇ψ|²; 1/|g|
 };
+
+/// Of ψ where the layer has this thickness.
+template <class Number>
+PointGeometry<Number> point_geometry(const AtPoint<Number>& psi, const PointThickness& thickness,
+                                     const MembraneWeight& weight) {
+    const double epsilon = thickness.value;
+    const SheetGradient<Number> sheet = sheet_gradient(psi, thickness);
+    const Number inverse = inverse_root(sheet.r * sheet.r + sheet.z * sheet.z + gradient_floor * gradient_floor);
+    const auto layer = layer_profile(psi.value, epsilon);
+    const Number density = membrane_density(layer, weight);
+    return {epsilon,
+            layer,
+            layer.delta + surface_floor / epsilon,
+            density,
+            chain(psi.value, cut_indicator(value_of(layer.phi), weight), value_of(density)),
+            sheet.r * inverse,
+            sheet.z * inverse,
+            psi.r * psi.r + psi.z * psi.z,
+            inverse};
+}
 
 /// The part of g along the normal, (n n + (1 − |n|²))·g: all of it where normals cross and n vanishes.
 template <class Number>
