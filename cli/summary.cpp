@@ -106,6 +106,23 @@ std::string reached(const Json& record) {
                        branch.at("end").get<double>());
 }
 
+/// What follows the number of elements of the sharp engine: those it began with, tolerance, accuracy.
+std::string sharp_resolution(const Json& record) {
+    const Json& parameters = record.at("parameters");
+    const Json& notes = record.at("notes");
+    std::string text;
+    if (notes.contains("elements_from") && notes.at("elements_from").size() > 1)
+        text += fmt::format(" at the end, {} at the start", notes.at("elements_from").at(0).at("elements").get<long>());
+    const double tolerance = notes.value("time_tolerance", parameters.at("time").at("tolerance").get<double>());
+    text += fmt::format(", time tolerance {:g}", tolerance);
+    const Json& accuracy = record.at("accuracy");
+    if (accuracy.contains("resolution"))
+        text += fmt::format("; relative accuracy {:g} asked for, {:.1e} reached",
+                            parameters.at("boundary_integral").at("accuracy").get<double>(),
+                            accuracy.at("resolution").at("largest").get<double>());
+    return text;
+}
+
 /// What the numbers rest on: conventions and resolution.
 std::string basis(const Json& record) {
     const Json& parameters = record.at("parameters");
@@ -120,8 +137,7 @@ std::string basis(const Json& record) {
         const long elements = parameters.at("boundary_integral").at("elements").get<long>();
         resolution = fmt::format("{} elements", notes.value("elements", elements));
     }
-    if (record.at("engine") == "boundary-integral")
-        resolution += fmt::format(", time tolerance {:g}", parameters.at("time").at("tolerance").get<double>());
+    if (record.at("engine") == "boundary-integral") resolution += sharp_resolution(record);
     return fmt::format("  curvature convention {}; {}\n",
                        parameters.at("membrane").at("curvature_convention").get<std::string>(), resolution);
 }

@@ -22,6 +22,7 @@ struct StepBalances {
     int order;             // of the integrator
     double line_energy;    // E_c, pN nm
     double exchanged, molecule_balance;
+    double resolution_error;  // estimated, of neck radius and budding time, relative
 };
 
 /// This engine's own columns of history.csv.
@@ -53,6 +54,8 @@ class HistoryRecorder {
     MoleculeBalance molecules_;
     MaterialRates strain_rates_;  // at the last row
     double last_row_ = 0.0;       // µs
+
+    [[nodiscard]] double resolution_error(const MembraneState& state) const;
 };
 
 }  // namespace endoflow::boundary_integral

@@ -11,9 +11,9 @@ namespace {
 
 constexpr Index shape_points_per_element = 8;
 
-FieldIndex field_index(const RunOutput& output) {
+FieldIndex field_index(const RunOutput& output, std::optional<double> goes_on_from) {
     const RunDirectory directory{output.directory()};
-    return output.restart_point() ? FieldIndex(directory, output.restart_point()->time_us) : FieldIndex(directory);
+    return goes_on_from ? FieldIndex(directory, *goes_on_from) : FieldIndex(directory);
 }
 
 bool later(double time, double than) {
@@ -27,14 +27,14 @@ Eigen::VectorXd state_at(double time, const StiffIntegrator& integrator) {
 }  // namespace
 
 OutputSeries::OutputSeries(const Parameters& parameters, const MembraneDynamics& dynamics, const FlowInterpolant& flow,
-                           RunOutput& output)
+                           std::optional<double> goes_on_from, RunOutput& output)
     : parameters_(parameters),
       dynamics_(dynamics),
       flow_(flow),
       output_(output),
-      start_(output.restart_point() ? output.restart_point()->time_us : 0.0),
+      start_(goes_on_from.value_or(0.0)),
       sampler_(dynamics.space(), shape_points_per_element * dynamics.space().elements()),
-      fields_(field_index(output)) {}
+      fields_(field_index(output, goes_on_from)) {}
 
 bool OutputSeries::writes_fields() const {
     return parameters_.output.field_interval > 0.0 && dynamics_.box() != nullptr;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "boundary_integral/driver/flow_interpolant.h"
 #include "boundary_integral/evolution/membrane_dynamics.h"
 #include "boundary_integral/evolution/observation.h"
@@ -13,9 +15,9 @@ namespace endoflow::boundary_integral {
 /// output.field_interval. After a restart the multiples before its beginning are past, whatever the intervals were.
 class OutputSeries {
   public:
-    /// `flow`: between the steps that are written.
+    /// `flow`: between the steps that are written; `goes_on_from`: the time [µs] up to which there are outputs already.
     OutputSeries(const Parameters& parameters, const MembraneDynamics& dynamics, const FlowInterpolant& flow,
-                 RunOutput& output);
+                 std::optional<double> goes_on_from, RunOutput& output);
 
     /// Shape and fields of the initial state.
     void write_initial(const Evaluation& evaluation);

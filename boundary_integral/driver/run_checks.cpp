@@ -2,31 +2,30 @@
 
 #include <fmt/format.h>
 
-#include "shared/case/resolution.h"
+#include "boundary_integral/evolution/resolution_estimate.h"
 #include "shared/support/error.h"
 
 namespace endoflow::boundary_integral {
 
 namespace {
 
-// Of the fewest elements across the coat's edge. With fewer c overshoots by tenths; with more by the hundredths of a
-// resolved edge, and a law that does not stand them is to blame.
-constexpr double overshooting_part = 0.25;
+// Jump of c's fifth derivative from which on c overshoots by tenths. Below it, it does by the hundredths of a resolved
+// edge, and a law that does not stand them is to blame.
+constexpr double unresolved = 2.0;
 
 }  // namespace
 
-void check_stiffness(const std::vector<double>& concentrations, const BendingModel& model, const Parameters& parameters,
+void check_stiffness(const Evaluation& evaluation, const MembraneDynamics& dynamics, const Parameters& parameters,
                      double time) {
-    for (const double c : concentrations) {
-        if (model.stiffness(c).value > 0.0) continue;
-        if (elements_per_edge_width(parameters) < overshooting_part * fewest_elements_per_edge_width)
-            throw SolverError(
-                "unresolved-coat-edge",
-                fmt::format("c = {:.6f} at t = {:.6f} µs, where the bending stiffness is no longer "
-                            "positive, beside the coat's edge: boundary_integral.elements = {} do not "
-                            "resolve molecules.interface_width = {:g} nm",
-                            c, time, parameters.boundary_integral.elements, parameters.molecules.interface_width),
-                "raise one of them");
+    for (const double c : evaluation.samples.c) {
+        if (dynamics.model().stiffness(c).value > 0.0) continue;
+        if (estimate_resolution(dynamics.space(), evaluation.state).concentration > unresolved)
+            throw SolverError("unresolved-coat-edge",
+                              fmt::format("c = {:.6f} at t = {:.6f} µs, where the bending stiffness is no longer "
+                                          "positive, beside the coat's edge: boundary_integral.elements = {} do not "
+                                          "resolve molecules.interface_width = {:g} nm",
+                                          c, time, dynamics.space().elements(), parameters.molecules.interface_width),
+                              "raise one of them");
         throw SolverError("negative-stiffness",
                           fmt::format("the law of membrane.constitutive_law gives no positive bending stiffness at "
                                       "c = {:.6f}, beside the edge of the coat, at t = {:.6f} µs",

@@ -1,17 +1,25 @@
 #include "boundary_integral/driver/run_loop.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <memory>
+#include <vector>
 
 #include "boundary_integral/driver/history_recorder.h"
 #include "boundary_integral/driver/integrator_checkpoint.h"
 #include "boundary_integral/driver/neck_events.h"
 #include "boundary_integral/driver/output_series.h"
+#include "boundary_integral/evolution/refinement.h"
+#include "shared/case/resolution.h"
 #include "shared/model/time_scale.h"
 #include "shared/support/interruption.h"
 
 namespace endoflow::boundary_integral {
 
 namespace {
+
+using IntegratorStatistics = StiffIntegrator::Statistics;
 
 constexpr double smallest_step = 1e-14;  // µs
 
@@ -23,33 +31,68 @@ StepLimits step_limits(const Parameters& parameters) {
     return limits;
 }
 
+/// The case with what its accuracy chooses.
+Parameters with_resolution(Parameters parameters, Index elements) {
+    parameters.time.tolerance = sharp_tolerance(parameters);
+    parameters.boundary_integral.elements = static_cast<int>(elements);
+    return parameters;
+}
+
+Index elements_at(const std::optional<Checkpoint>& from, const Parameters& parameters) {
+    return from ? static_cast<Index>(from->scalar("elements")) : initial_elements(parameters);
+}
+
+/// A run from its beginning or a checkpoint on, as long as its elements are enough.
 class RunLoop {
   public:
-    RunLoop(const Parameters& parameters, RunOutput& output)
-        : parameters_(parameters),
+    RunLoop(const Parameters& parameters, const std::optional<Checkpoint>& from, const IntegratorStatistics& before,
+            RunOutput& output)
+        : parameters_(with_resolution(parameters, elements_at(from, parameters))),
+          may_refine_(parameters.boundary_integral.elements == 0),
+          before_(before),
           output_(output),
-          dynamics_(parameters),
-          history_(parameters, dynamics_, output),
-          events_(parameters, dynamics_, output),
-          series_(parameters, dynamics_, flow_, output),
+          from_(from),
+          dynamics_(parameters_),
+          history_(parameters_, dynamics_, output),
+          events_(parameters_, dynamics_, output),
+          series_(parameters_, dynamics_, flow_, from_ ? std::optional(from_->time_us) : std::nullopt, output),
           start_(start()),
-          integrator_(problem(), start_, step_limits(parameters)) {}
+          integrator_(problem(), start_, step_limits(parameters_)) {}
 
-    ExitReason execute() {
-        if (!output_.restart_point()) begin();
+    /// Why the run ended; nothing when it needs more elements.
+    std::optional<ExitReason> execute() {
+        if (!from_) begin();
         begin_section();
-        ExitReason reason = ExitReason::interrupted;
+        std::optional<ExitReason> reason = ExitReason::interrupted;
         try {
             reason = advance_to_an_end();
         } catch (const Interrupted&) {
             output_.log_info("a step was given up");
         }
-        return stop(reason);
+        if (reason) stop();
+        return reason;
+    }
+
+    /// The same point of the run on more elements.
+    Checkpoint refined() {
+        const StartingPoint here = integrator_.start_anew();
+        const auto finer = dynamics_with(parameters_, more_elements_);
+        start_ = {here.time, here.step, transferred(dynamics_, here.y, *finer)};
+        refinements_.push_back(here.time);
+        elements_.push_back(static_cast<double>(more_elements_));
+        output_.log_info(fmt::format("{} elements from t = {:.6g} µs on", more_elements_, here.time));
+        return make_checkpoint();
+    }
+
+    [[nodiscard]] IntegratorStatistics statistics() const {
+        IntegratorStatistics all = integrator_.statistics();
+        return all += before_;
     }
 
   private:
-    ExitReason advance_to_an_end() {
+    std::optional<ExitReason> advance_to_an_end() {
         while (integrator_.time() < parameters_.time.end) {
+            if (needs_more_elements()) return std::nullopt;
             if (integrator_.statistics().steps == next_start_) start_anew();
             if (interruption_signal() != 0) return ExitReason::interrupted;
             if (output_.checkpoint_due()) output_.write_checkpoint(resume_);
@@ -64,19 +107,24 @@ class RunLoop {
         return ExitReason::done;
     }
 
-    const Parameters& parameters_;
+    Parameters parameters_;  // resolved
+    bool may_refine_;
+    IntegratorStatistics before_;
     RunOutput& output_;
+    std::optional<Checkpoint> from_;
     MembraneDynamics dynamics_;
     FlowInterpolant flow_;
     HistoryRecorder history_;
     NeckEvents events_;
     OutputSeries series_;
+    std::vector<double> refinements_, elements_;          // since when [µs] there are how many, the beginning first
     std::shared_ptr<const MobilityOperators> operators_;  // of the step's predicted shape
     Eigen::VectorXd predicted_;                           // what that shape belongs to
     Evaluation latest_;                                   // of the last rate the integrator asked for
     StartingPoint start_;                                 // of the integrator
     StiffIntegrator integrator_;
     Checkpoint resume_;  // of the integrator's starting point
+    Index more_elements_ = 0;
     long next_start_ = parameters_.boundary_integral.restart_interval;
     long rejected_ = 0;
 
@@ -85,6 +133,9 @@ class RunLoop {
     [[nodiscard]] Checkpoint make_checkpoint() const {
         Checkpoint checkpoint;
         save(start_, checkpoint);
+        checkpoint.scalars["elements"] = elements_.back();
+        checkpoint.arrays["refinement_times"] = refinements_;
+        checkpoint.arrays["refinement_elements"] = elements_;
         history_.save(checkpoint);
         events_.save(checkpoint);
         series_.save(checkpoint);
@@ -111,13 +162,26 @@ class RunLoop {
     }
 
     StartingPoint start() {
-        if (const auto& checkpoint = output_.restart_point()) {
-            history_.restore(*checkpoint);
-            events_.restore(*checkpoint);
-            series_.restore(*checkpoint);
-            return restored_start(*checkpoint, dynamics_.size(), output_.directory().string());
+        if (from_) {
+            history_.restore(*from_);
+            events_.restore(*from_);
+            series_.restore(*from_);
+            refinements_ = from_->array("refinement_times");
+            elements_ = from_->array("refinement_elements");
+            return restored_start(*from_, dynamics_.size(), output_.directory().string());
         }
+        refinements_ = {0.0};
+        elements_ = {static_cast<double>(dynamics_.space().elements())};
         return {0.0, first_step(parameters_), dynamics_.initial_vector()};
+    }
+
+    // Only what the state itself says decides, so that a continued run adds elements where the uninterrupted one does.
+    bool needs_more_elements() {
+        if (!may_refine_) return false;
+        const Index now = dynamics_.space().elements();
+        more_elements_ = elements_for(dynamics_.space(), dynamics_.unpack(integrator_.state()),
+                                      parameters_.boundary_integral.accuracy);
+        return more_elements_ > now;
     }
 
     void make_operators(const Eigen::VectorXd& predicted) {
@@ -157,9 +221,9 @@ class RunLoop {
     }
 
     /// What the run leaves behind, however far it got within a step.
-    ExitReason stop(ExitReason reason) {
+    void stop() {
         output_.write_checkpoint(resume_);
-        const auto& statistics = integrator_.statistics();
+        const IntegratorStatistics statistics = this->statistics();
         output_.note("integrator", {{"steps", statistics.steps},
                                     {"operators", statistics.steps_begun},
                                     {"rate_evaluations", statistics.rates},
@@ -167,16 +231,28 @@ class RunLoop {
                                     {"error_test_failures", statistics.error_test_failures},
                                     {"convergence_failures", statistics.convergence_failures},
                                     {"steps_of_order", statistics.steps_of_order}});
+        output_.note("time_tolerance", parameters_.time.tolerance);
+        output_.note("elements", dynamics_.space().elements());
+        auto refinements = RunRecord::array();
+        for (std::size_t i = 0; i < elements_.size(); ++i)
+            refinements.push_back({{"time_us", refinements_[i]}, {"elements", std::lround(elements_[i])}});
+        output_.note("elements_from", refinements);
         output_.note("unknowns", dynamics_.size());
         if (const BoxFlow* box = dynamics_.box()) output_.note("wall_unknowns", box->walls().unknowns());
-        return reason;
     }
 };
 
 }  // namespace
 
 ExitReason run_to_end(const Parameters& parameters, RunOutput& output) {
-    return RunLoop(parameters, output).execute();
+    std::optional<Checkpoint> from = output.restart_point();
+    IntegratorStatistics before;
+    while (true) {
+        RunLoop loop(parameters, from, before, output);
+        if (const auto reason = loop.execute()) return *reason;
+        from = loop.refined();
+        before = loop.statistics();
+    }
 }
 
 }  // namespace endoflow::boundary_integral

@@ -31,7 +31,7 @@ MembraneDynamics::MembraneDynamics(const Parameters& parameters)
       exchange_(parameters.molecules),
       flow_(make_flow(parameters, space_)),
       mesh_(space_,
-            {parameters.boundary_integral.mesh_curvature_length, parameters.boundary_integral.mesh_edge_weight,
+            {parameters.boundary_integral.mesh_curvature_length, parameters.boundary_integral.mesh_edge_length,
              parameters.boundary_integral.mesh_relaxation_time, parameters.boundary_integral.mesh_smoothing},
             flow_->keeps_local_area() ? MeshCarrier::material : MeshCarrier::normal_motion) {}
 
@@ -82,10 +82,13 @@ Eigen::VectorXd MembraneDynamics::initial_vector() const {
         if (space_.end() == CurveEnd::clamped) shifts.back() = 0.0;
         shift = radial(shifts);
     }
-    const MembraneSamples samples = sample(space_, state);
+    return packed(state);
+}
+
+Eigen::VectorXd MembraneDynamics::packed(const MembraneState& state) const {
     Eigen::VectorXd curve(space_.curve_count());
     curve << state.r, state.z;
-    return pack(curve, surface_mass_matrix(space_, samples.curve) * state.c);
+    return pack(curve, surface_mass_matrix(space_, sample(space_, state).curve) * state.c);
 }
 
 MembraneState MembraneDynamics::unpack(const Eigen::VectorXd& y) const {

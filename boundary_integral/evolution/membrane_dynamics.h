@@ -48,6 +48,7 @@ class MembraneDynamics {
     Eigen::VectorXd initial_vector() const;
 
     MembraneState unpack(const Eigen::VectorXd& y) const;
+    Eigen::VectorXd packed(const MembraneState& state) const;
     Evaluation evaluate(const Eigen::VectorXd& y) const { return evaluate(y, operators(y)); }
 
     // The hydrodynamic operators cost far more than the rest and depend smoothly on the shape: they may be taken from

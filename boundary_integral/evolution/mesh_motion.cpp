@@ -50,12 +50,12 @@ MeshMotion::MeshMotion(const MembraneSpace& space, const MeshDensity& density, M
     }
 }
 
-double MeshMotion::wanted_density(const CurvePoint& p, double c) const {
+double MeshMotion::wanted_density(const CurvePoint& p, double c1) const {
     const double length = density_.curvature_length;
     const double bend =
         length * length *
         (p.meridional_curvature * p.meridional_curvature + p.azimuthal_curvature * p.azimuthal_curvature);
-    const double edge = density_.edge_weight * 4.0 * c * (1.0 - c);
+    const double edge = density_.edge_length * c1 / p.g;
     return std::sqrt(1.0 + bend + edge * edge);
 }
 
@@ -63,7 +63,7 @@ double MeshMotion::wanted_density(const CurvePoint& p, double c) const {
 std::vector<double> MeshMotion::filtered_density(const MembraneSamples& samples) const {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(space_.axial_count());
     for (std::size_t i = 0; i < space_.xi.size(); ++i) {
-        const double wanted = wanted_density(samples.curve[i], samples.c[i]);
+        const double wanted = wanted_density(samples.curve[i], samples.c1[i]);
         const BasisRow& b = space_.axial_rows[i];
         for (std::size_t j = 0; j < 6; ++j) right[b.index[j]] += space_.weight[i] * wanted * b.value[0][j];
     }
@@ -143,22 +143,22 @@ MeshMotion::Derivatives MeshMotion::derivatives(const MembraneState& state, cons
         const CurvePoint& p = samples.curve[i];
         const BasisRow& b = space_.radial_rows[i];
         const BasisRow& a = space_.axial_rows[i];
-        const double weight = space_.weight[i], c = samples.c[i];
-        const double per_wanted = weight / wanted_density(p, c);
+        const double weight = space_.weight[i], c1 = samples.c1[i];
+        const double per_wanted = weight / wanted_density(p, c1);
         const double m = length * length * p.meridional_curvature, q = length * length * p.azimuthal_curvature;
         const double square = p.g * p.g, cube = square * p.g;
-        const double stretch = -(3.0 * m * p.meridional_curvature + q * p.azimuthal_curvature) / square;
+        const double by_c1 = density_.edge_length * density_.edge_length * c1 / square;
+        const double stretch = -(3.0 * m * p.meridional_curvature + q * p.azimuthal_curvature + by_c1 * c1) / square;
         const double by_r = -q * p.azimuthal_curvature / p.r;
         const double by_r1 = -m * p.z2 / cube + stretch * p.r1, by_r2 = m * p.z1 / cube;
         const double by_z1 = m * p.r2 / cube + stretch * p.z1 - q / (p.r * p.g), by_z2 = -m * p.r1 / cube;
-        const double by_c = 16.0 * density_.edge_weight * density_.edge_weight * c * (1.0 - c) * (1.0 - 2.0 * c);
         const double rho = weight * density[i];
         total += rho * p.g;
         for (std::size_t k = 0; k < 6; ++k) {
             const double from_r = rho * p.r1 / p.g * b.value[1][k], from_z = rho * p.z1 / p.g * a.value[1][k];
             const double wanted_r = per_wanted * (by_r * b.value[0][k] + by_r1 * b.value[1][k] + by_r2 * b.value[2][k]);
             const double wanted_z = per_wanted * (by_z1 * a.value[1][k] + by_z2 * a.value[2][k]);
-            const double wanted_c = per_wanted * by_c * a.value[0][k];
+            const double wanted_c = per_wanted * by_c1 * a.value[1][k];
             total_variation[b.index[k]] += from_r;
             total_variation[offset + a.index[k]] += from_z;
             total_by_density[a.index[k]] += weight * p.g * a.value[0][k];

@@ -12,12 +12,13 @@
 namespace endoflow::boundary_integral {
 
 // Elements per arc length are proportional to
-//     rho = sqrt(1 + (curvature_length)^2 (kappa_m^2 + kappa_p^2) + (edge_weight 4 c (1 - c))^2)
+//     rho = sqrt(1 + (curvature_length)^2 (kappa_m^2 + kappa_p^2) + (edge_length dc/ds)^2)
+// so that the coat's edge has as many elements as that length of a flat membrane, however narrow it is.
 struct MeshDensity {
     double curvature_length;  // nm
-    double edge_weight;
-    double relaxation_time;  // us
-    double smoothing;        // rho is filtered over this length in xi, whatever the number of elements
+    double edge_length;       // nm
+    double relaxation_time;   // us
+    double smoothing;         // rho is filtered over this length in xi, whatever the number of elements
 };
 
 enum class MeshCarrier { material, normal_motion };
@@ -53,7 +54,7 @@ class MeshMotion {
     LuFactors radial_interpolation_, axial_interpolation_, filter_, antiderivative_;
     Eigen::VectorXd identity_;  // xi itself in the radial space, as far as its ends let it
 
-    double wanted_density(const CurvePoint& p, double c) const;
+    double wanted_density(const CurvePoint& p, double c1) const;
     std::vector<double> filtered_density(const MembraneSamples& samples) const;  // at the Gauss points
     // What carries the mesh off the material at one point, and its derivatives by x' and u.
     struct Slip {

@@ -19,7 +19,7 @@ struct Failure {
 };
 
 constexpr const char* no_small_step = "no time step is small enough";
-constexpr const char* smoother = "use more elements, or a looser time.tolerance";
+constexpr const char* smoother = "lower boundary_integral.accuracy, or use a looser time.tolerance";
 constexpr const char* broken_set_up = "the integrator refused how it was set up";
 constexpr const char* report = "report this case";
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "boundary_integral/integration/cvode_failures.h"
@@ -112,6 +113,18 @@ void StiffIntegrator::advance(double end) {
     require_success(CVodeGetLastOrder(cvode, &last_order_), "CVodeGetLastOrder");
     ++statistics_.steps;
     ++statistics_.steps_of_order.at(static_cast<std::size_t>(last_order_));
+}
+
+StiffIntegrator::Statistics& StiffIntegrator::Statistics::operator+=(const Statistics& other) {
+    steps += other.steps;
+    steps_begun += other.steps_begun;
+    rates += other.rates;
+    jacobians += other.jacobians;
+    error_test_failures += other.error_test_failures;
+    convergence_failures += other.convergence_failures;
+    std::transform(steps_of_order.begin(), steps_of_order.end(), other.steps_of_order.begin(), steps_of_order.begin(),
+                   std::plus<>());
+    return *this;
 }
 
 StartingPoint StiffIntegrator::start_anew() {

@@ -57,6 +57,9 @@ class StiffIntegrator {
     struct Statistics {
         long steps = 0, steps_begun = 0, rates = 0, jacobians = 0, error_test_failures = 0, convergence_failures = 0;
         std::array<long, 6> steps_of_order{};
+
+        /// Adds those of an integration that went before.
+        Statistics& operator+=(const Statistics& other);
     };
     /// Of the whole integration, whatever points it was started anew from.
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }

@@ -50,8 +50,21 @@ def resolution(record):
         layer = f"layer of ε = {parameters['phase_field']['epsilon']:g} nm"
         return layer + (f" on cells of {cells:.4g} nm" if cells else "")
     elements = f"{notes.get('elements') or parameters['boundary_integral']['elements']:g} elements"
-    tolerance = parameters["time"].get("tolerance")
-    return elements + (f", time tolerance {tolerance:g}" if tolerance and record["engine"] != "statics" else "")
+    return elements if record["engine"] == "statics" else elements + _sharp_resolution(record)
+
+
+def _sharp_resolution(record):
+    """What follows the number of elements: those it began with, tolerance, accuracy asked for and reached."""
+    notes, parameters = record.get("notes", {}), record["parameters"]
+    counts = notes.get("elements_from", [])
+    text = f" at the end, {counts[0]['elements']} at the start" if len(counts) > 1 else ""
+    tolerance = notes.get("time_tolerance") or parameters["time"].get("tolerance")
+    text += f", time tolerance {tolerance:g}" if tolerance else ""
+    reached = record.get("accuracy", {}).get("resolution")
+    if reached:
+        asked = parameters["boundary_integral"]["accuracy"]
+        text += f"; relative accuracy {asked:g} asked for, {reached['largest']:.1e} reached"
+    return text
 
 
 def alarms_in_words(record):

@@ -17,7 +17,7 @@ def finer_settings(engine, parameters, notes):
 
     parameters: by section, as resolved; notes: those of the finished run's run.json.
     """
-    refined = _finer_sharp(parameters) if engine == "boundary-integral" else _finer_diffuse(parameters, notes)
+    refined = _finer_sharp(parameters, notes) if engine == "boundary-integral" else _finer_diffuse(parameters, notes)
     return (*(f"{key}={value:.12g}" for key, value in refined.items()), *_no_output(parameters))
 
 
@@ -30,17 +30,21 @@ def thinner_settings(parameters):
     return (*(f"{key}={value:.12g}" for key, value in refined.items()), *_no_output(parameters))
 
 
-def _finer_sharp(parameters):
+def _finer_sharp(parameters, notes):
+    """From what a run chose, when it chose: as many elements as it ended with, and half of that, from the start."""
+    elements = notes.get("elements") or parameters["boundary_integral"]["elements"]
+    tolerance = notes.get("time_tolerance") or parameters["time"]["tolerance"]
     return {
-        "boundary_integral.elements": math.ceil(ELEMENTS_RATIO * parameters["boundary_integral"]["elements"]),
-        "time.tolerance": STRICTER * parameters["time"]["tolerance"],
+        "boundary_integral.elements": math.ceil(ELEMENTS_RATIO * elements),
+        "time.tolerance": STRICTER * tolerance,
     }
 
 
 def _finer_diffuse(parameters, notes):
     own = parameters["phase_field"]
     cell = own["cell_size"] or notes["cell_size_nm"]
-    tolerance = STRICTER * parameters["time"]["tolerance"]
+    chosen = notes.get("constants", {}).get("default_tolerance", 0)  # scheme `paper` has no error control
+    tolerance = STRICTER * (parameters["time"]["tolerance"] or chosen)
     refined = {"phase_field.cell_size": CELL_RATIO * cell, "time.tolerance": tolerance}
     if own["scheme"] == "paper":
         for key in ("max_step", "max_motion"):

@@ -150,6 +150,19 @@ void check_exchange(const Parameters& p, const Require& require) {
                         m.molecule_area, exponent, largest_exponent));
 }
 
+/// Numbers whose 0 means "chosen" have a gap above it.
+void check_resolution(const Parameters& p, const Require& require) {
+    constexpr int fewest_elements = 8;
+    constexpr double strictest_tolerance = 1e-12;
+    const int elements = p.boundary_integral.elements;
+    require(elements == 0 || elements >= fewest_elements,
+            fmt::format("boundary_integral.elements = {} must be 0 (chosen by boundary_integral.accuracy) or >= {}",
+                        elements, fewest_elements));
+    require(p.time.tolerance == 0 || p.time.tolerance >= strictest_tolerance,
+            fmt::format("time.tolerance = {:g} must be 0 (chosen by the engine) or >= {:g}", p.time.tolerance,
+                        strictest_tolerance));
+}
+
 void check_times(const Parameters& p, const Require& require) {
     require(first_step(p) <= longest_step(p),
             fmt::format("time.initial_step = {:.5g} µs must not exceed time.max_step = {:.5g} µs", first_step(p),
@@ -173,6 +186,7 @@ void check_case(const Parameters& p, const std::string& where) {
     check_loads(p, require);
     check_molecules(p, require);
     check_exchange(p, require);
+    check_resolution(p, require);
     check_times(p, require);
 }
 

@@ -2,11 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 namespace endoflow {
 
 namespace {
 
-constexpr double enough_elements_per_edge_width = 1;
+/// Length of a flat membrane that one element resolves to 10⁻³ once it bends, and how many elements even a small
+/// membrane gets for its shape. Errors go with the twelfth power of the elements.
+constexpr double flat_element = 2;  // nm
+constexpr double fewest_for_the_shape = 40;
+constexpr double accuracy_of_these = 1e-3, order = 12;
+
+/// With fewer of the elements that are needed, errors are ten times as large as allowed.
+constexpr double fewest_part = 0.8;
+
+/// Of boundary_integral.accuracy.
+constexpr double tolerance_part = 0.1;
 
 /// Cells of the diffuse engine must not exceed the layer's thickness by more than this.
 constexpr double largest_cells_per_epsilon = 1.5;
@@ -14,23 +28,41 @@ constexpr double largest_cells_per_epsilon = 1.5;
 /// A patch beyond this part of the domain feels the wall that holds the rim.
 constexpr double largest_part_of_domain = 0.8;
 
+/// From the axis to the rim, or from pole to pole [nm].
+double length_of_membrane(const DomainParameters& d) {
+    if (d.kind == DomainKind::box) return d.radius;
+    return std::numbers::pi * std::hypot(d.spheroid_polar_axis, d.spheroid_equatorial_axis) / std::numbers::sqrt2;
+}
+
+/// As elements_asked_for(), but without an upper bound.
+double needed_elements(const Parameters& p) {
+    const double shape = std::max(fewest_for_the_shape, length_of_membrane(p.domain) / flat_element);
+    const double edge = p.boundary_integral.mesh_edge_length / flat_element;
+    return std::ceil((shape + edge) * std::pow(accuracy_of_these / p.boundary_integral.accuracy, 1 / order));
+}
+
 }  // namespace
 
-double elements_per_edge_width(const Parameters& p) {
-    return p.molecules.interface_width * p.boundary_integral.elements / p.domain.radius;
+int elements_asked_for(const Parameters& p) {
+    return static_cast<int>(std::min<double>(needed_elements(p), most_elements));
+}
+
+double sharp_tolerance(const Parameters& p) {
+    return p.time.tolerance > 0 ? p.time.tolerance : tolerance_part * p.boundary_integral.accuracy;
 }
 
 std::vector<ResolutionWarning> foreseen_inaccuracies(const Parameters& p) {
     std::vector<ResolutionWarning> warnings;
+    const double needed = needed_elements(p), given = p.boundary_integral.elements;
+    const std::string wanted = fmt::format("boundary_integral.accuracy = {:g} needs about {:.0f} elements",
+                                           p.boundary_integral.accuracy, needed);
+    if (given > 0 && given < fewest_part * needed)
+        warnings.push_back({"boundary-integral", fmt::format("{}, not {:g}", wanted, given),
+                            "set boundary_integral.elements = 0, or raise accuracy"});
+    if (given == 0 && needed > most_elements)
+        warnings.push_back({"boundary-integral", fmt::format("{}, more than {}", wanted, most_elements),
+                            "lower domain.radius, or raise boundary_integral.accuracy"});
     if (p.domain.kind != DomainKind::box) return warnings;
-    if (const double elements = elements_per_edge_width(p); elements < enough_elements_per_edge_width)
-        warnings.push_back(
-            {"boundary-integral",
-             fmt::format(
-                 "{:.2g} elements across the coat's edge (molecules.interface_width = {:g} nm), fewer than {:g}",
-                 elements, p.molecules.interface_width, enough_elements_per_edge_width),
-             fmt::format("raise boundary_integral.elements to {:.0f}",
-                         p.boundary_integral.elements * enough_elements_per_edge_width / elements)});
     if (p.phase_field.cell_size > largest_cells_per_epsilon * p.phase_field.epsilon)
         warnings.push_back({"phase-field",
                             fmt::format("phase_field.cell_size = {:g} nm does not resolve a layer of epsilon = {:g} nm",

@@ -7,12 +7,15 @@
 
 namespace endoflow {
 
-/// Elements of the sharp engine, were they equally long, across the length ε_c of the coat's edge. Figures are exact to
-/// 0.1 % from 1 on; below a half, concentrations overshoot and results are off by per cents.
-[[nodiscard]] double elements_per_edge_width(const Parameters& parameters);
+/// The sharp engine chooses no more elements than this: what needs more takes hours.
+inline constexpr int most_elements = 320;
 
-/// Below so many elements, c leaves [0, 1] beside the edge because of the mesh and not because of the law.
-inline constexpr double fewest_elements_per_edge_width = 0.5;
+/// Elements with which the sharp engine begins where boundary_integral.elements is 0, whatever its initial state is
+/// like: the shapes that are to come need them.
+[[nodiscard]] int elements_asked_for(const Parameters& parameters);
+
+/// time.tolerance of the sharp engine, a tenth of boundary_integral.accuracy where it is 0.
+[[nodiscard]] double sharp_tolerance(const Parameters& parameters);
 
 /// What a case's resolution lets expect, foreseen without running it.
 struct ResolutionWarning {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shared/parameters/parameter_table.h"
 #include "shared/support/error.h"
 
 namespace endoflow {
@@ -37,8 +38,11 @@ AccuracyWatch::AccuracyWatch(const Parameters& parameters, const EngineIdentity&
     : columns_(engine.history_columns) {
     for (const AccuracyBound& bound : accuracy_bounds())
         if (bound.engine == engine.name && has_column(bound.column, columns_) &&
-            (!bound.applies || bound.applies(parameters)))
+            (!bound.applies || bound.applies(parameters))) {
             bounds_.push_back(bound);
+            if (!bound.asked_for.empty())
+                bounds_.back().bound = std::get<double>(find_parameter(bound.asked_for)->get(parameters));
+        }
 }
 
 double AccuracyWatch::measured(const AccuracyBound& bound, const HistoryRow& row, RunRecord& memory) const {

@@ -29,7 +29,8 @@ struct AccuracyBound {
     double limit;  // beyond it the run is not a solution any more and stops
     std::string meaning;
     std::string remedy;
-    std::function<bool(const Parameters&)> applies;  // empty: to every case
+    std::function<bool(const Parameters&)> applies = {};  // empty: to every case
+    std::string asked_for = {};                           // section.key of the parameter that is the bound in a run
 };
 
 /// All bounds of all engines; the table in docs/outputs.md is this one.

@@ -321,16 +321,20 @@ std::vector<ParameterRow> production_scheme_rows() {
 std::vector<ParameterRow> boundary_integral_rows() {
     using S = BoundaryIntegralParameters;
     return {
-        row("boundary_integral", "elements", &P::boundary_integral, &S::elements, "", at_least(8, 2000), "",
-            "number of spline elements along the membrane"),
+        row("boundary_integral", "accuracy", &P::boundary_integral, &S::accuracy, "", {1e-6, 0.1}, "",
+            "relative error wanted of neck radius and budding time: chooses the elements and the time steps' "
+            "tolerance"),
+        row("boundary_integral", "elements", &P::boundary_integral, &S::elements, "", at_least(0, 2000), "",
+            "number of spline elements along the membrane, from 8 on; 0 = chosen by accuracy, more when a run needs "
+            "them"),
         row("boundary_integral", "quadrature_order", &P::boundary_integral, &S::quadrature_order, "", at_least(4, 20),
             "", "Gauss points per element"),
         free_on_restart(row("boundary_integral", "threads", &P::boundary_integral, &S::threads, "", at_least(0, 256),
                             "", "threads that share the work; 0 = one per core")),
         row("boundary_integral", "mesh_curvature_length", &P::boundary_integral, &S::mesh_curvature_length, "nm",
             at_least(0, 1e3), "", "elements get short where the curvature exceeds the inverse of this"),
-        row("boundary_integral", "mesh_edge_weight", &P::boundary_integral, &S::mesh_edge_weight, "", at_least(0, 20),
-            "", "how much shorter elements are at the edge of the patch"),
+        row("boundary_integral", "mesh_edge_length", &P::boundary_integral, &S::mesh_edge_length, "nm",
+            at_least(0, 1e3), "", "the edge of the patch has as many elements as this length of a bare flat membrane"),
         row("boundary_integral", "mesh_smoothing", &P::boundary_integral, &S::mesh_smoothing, "", positive(1), "",
             "part of the mesh over which the element density is filtered, so that neighbours are similar"),
         row("boundary_integral", "mesh_relaxation_time", &P::boundary_integral, &S::mesh_relaxation_time, "µs",
@@ -350,8 +354,9 @@ std::vector<ParameterRow> time_rows() {
     using S = TimeParameters;
     return {
         free_on_restart(row("time", "end", &P::time, &S::end, "µs", positive(1e9), "T", "simulated time")),
-        free_on_restart(row("time", "tolerance", &P::time, &S::tolerance, "", {1e-12, 0.1}, "",
-                            "relative accuracy of the time steps where they are error-controlled")),
+        free_on_restart(row("time", "tolerance", &P::time, &S::tolerance, "", at_least(0, 0.1), "",
+                            "relative accuracy of the time steps where they are error-controlled; 0 = a tenth of "
+                            "boundary_integral.accuracy in that engine, 1e-4 in the other")),
         free_on_restart(row("time", "initial_step", &P::time, &S::initial_step, "µs", at_least(0, 1e3), "",
                             "first time step; 0 = 1.0653e-6 (ν₁ + ν₂) R³/β, 1e-5 µs in the standard case")),
         free_on_restart(row("time", "max_step", &P::time, &S::max_step, "µs", at_least(0, 1e6), "",

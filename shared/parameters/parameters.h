@@ -121,11 +121,12 @@ struct PhaseFieldParameters {
 };
 
 struct BoundaryIntegralParameters {
-    int elements = 80;
+    double accuracy = 1e-3;
+    int elements = 0;
     int quadrature_order = 8;
     int threads = 0;
     double mesh_curvature_length = 8;
-    double mesh_edge_weight = 4;
+    double mesh_edge_length = 27;
     double mesh_smoothing = 0.05;
     double mesh_relaxation_time = 0.002;
     int restart_interval = 200;
@@ -135,7 +136,7 @@ struct BoundaryIntegralParameters {
 
 struct TimeParameters {
     double end = 20;
-    double tolerance = 1e-4;
+    double tolerance = 0;
     double initial_step = 0;
     double max_step = 0;
 };

@@ -82,10 +82,10 @@ def refinement(arguments):
     """Settings, results and cost of runs of the sharp engine."""
     rows = []
     for run in map(endoflow.load, arguments.runs):
-        own, end = run.parameters["boundary_integral"], run.history["time_us"][-1]
+        own, notes, end = run.parameters["boundary_integral"], run.record["notes"], run.history["time_us"][-1]
         neck, area = at(run, "neck_radius_nm", end), at(run, "membrane_area_nm2", end)
         rows.append(
-            [str(own["elements"]), f"{run.parameters['time']['tolerance']:.0e}", str(own["quadrature_order"])]
+            [str(notes["elements"]), f"{notes['time_tolerance']:.0e}", str(own["quadrature_order"])]
             + [budding(run), f"{neck:.6f}", f"{area:.4f}", str(run.record["steps"]["accepted"])]
             + [f"{run.record['cpu_s']:.1f}", f"{run.history['area_strain_max'].max():.0e}"]
         )

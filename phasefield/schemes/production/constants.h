@@ -56,6 +56,7 @@ inline constexpr Constant constants[] = {
     {"highest_order", 3, "", "of BDF"},
     {"guess_points", 2, "", "times from which Newton's method and the normals start"},
     {"first_steps", 4, "", "before the error can be estimated"},
+    {"default_tolerance", 1e-4, "", "time.tolerance where that is 0"},
     {"error_part", 0.05, "time.tolerance", "error of one step: the errors of the steps add up"},
     {"safety", 0.85, "", "of the step"},
     {"largest_growth", 1.5, "", "of the step, per step"},

@@ -21,6 +21,7 @@ namespace {
 constexpr std::size_t highest_order = count("highest_order");
 constexpr std::size_t guess_points = count("guess_points");
 constexpr double first_steps = constant("first_steps");
+constexpr double default_tolerance = constant("default_tolerance");
 constexpr double error_part = constant("error_part");
 constexpr double safety = constant("safety");
 constexpr double largest_growth = constant("largest_growth");
@@ -33,7 +34,8 @@ constexpr double largest_motion = constant("largest_motion");
 
 /// Largest error of the membrane's position per step [nm].
 double position_tolerance(const Parameters& p) {
-    return error_part * p.time.tolerance * size_of_membrane(p.domain);
+    const double tolerance = p.time.tolerance > 0 ? p.time.tolerance : default_tolerance;
+    return error_part * tolerance * size_of_membrane(p.domain);
 }
 
 }  // namespace

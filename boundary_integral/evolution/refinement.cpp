@@ -1,0 +1,68 @@
+#include "boundary_integral/evolution/refinement.h"
+
+#include <algorithm>
+
+#include "boundary_integral/evolution/resolution_estimate.h"
+#include "shared/case/resolution.h"
+
+namespace endoflow::boundary_integral {
+
+namespace {
+
+// Parts of the accuracy asked for: what is left when elements are added in time, and what the coat's edge may take at
+// the start, for it gets coarser when the membrane flows in.
+constexpr double allowed_part = 0.5, initial_part = 0.01;
+
+// Four elements for three: the jumps fall to a sixth, the errors to a thirtieth.
+Index more(Index elements) {
+    return std::min<Index>((4 * elements + 2) / 3, most_elements);
+}
+
+}  // namespace
+
+std::unique_ptr<MembraneDynamics> dynamics_with(const Parameters& parameters, Index elements) {
+    Parameters with = parameters;
+    with.boundary_integral.elements = static_cast<int>(elements);
+    return std::make_unique<MembraneDynamics>(with);
+}
+
+Index initial_elements(const Parameters& parameters) {
+    if (parameters.boundary_integral.elements > 0) return parameters.boundary_integral.elements;
+    const double allowed = initial_part * parameters.boundary_integral.accuracy;
+    for (Index elements = elements_asked_for(parameters);; elements = more(elements)) {
+        if (elements == most_elements) return elements;
+        const auto dynamics = dynamics_with(parameters, elements);
+        const MembraneState state = dynamics->unpack(dynamics->initial_vector());
+        if (estimate_resolution(dynamics->space(), state).relative_error() <= allowed) return elements;
+    }
+}
+
+Index elements_for(const MembraneSpace& space, const MembraneState& state, double accuracy) {
+    const bool enough = estimate_resolution(space, state).relative_error() <= allowed_part * accuracy;
+    return enough ? space.elements() : std::max(space.elements(), more(space.elements()));
+}
+
+Eigen::VectorXd transferred(const MembraneDynamics& from, const Eigen::VectorXd& y, const MembraneDynamics& to) {
+    const MembraneState state = from.unpack(y);
+    const auto values = [](const SplineSpace& spline, const Eigen::VectorXd& coefficients,
+                           const std::vector<double>& points) {
+        std::vector<double> found;
+        for (const double xi : points) found.push_back(spline.basis(xi).evaluate(coefficients));
+        return found;
+    };
+    const SplineSpace &radial = to.space().radial(), &axial = to.space().axial();
+    const std::vector<double> axial_points = axial.greville_points();
+    const Interpolation axial_interpolation(axial);
+    MembraneState moved;
+    moved.r = interpolate(radial, values(from.space().radial(), state.r, radial.greville_points()));
+    moved.z = axial_interpolation(values(from.space().axial(), state.z, axial_points));
+    moved.c = axial_interpolation(values(from.space().axial(), state.c, axial_points));
+    Eigen::VectorXd result = to.packed(moved);
+    // The interpolated c on the interpolated curve is some 1e-9 of the molecules off.
+    const double before = y.tail(from.space().axial_count()).sum();
+    auto moments = result.tail(to.space().axial_count());
+    if (const double after = moments.sum(); after > 0.0) moments *= before / after;
+    return result;
+}
+
+}  // namespace endoflow::boundary_integral

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <memory>
+
+#include "boundary_integral/evolution/membrane_dynamics.h"
+
+namespace endoflow::boundary_integral {
+
+/// The membrane of a case on so many elements.
+[[nodiscard]] std::unique_ptr<MembraneDynamics> dynamics_with(const Parameters& parameters, Index elements);
+
+/// boundary_integral.elements, or as many as the case's initial state needs for boundary_integral.accuracy.
+[[nodiscard]] Index initial_elements(const Parameters& parameters);
+
+/// Half as many elements again, more or less: what a state that `accuracy` asks to be refined gets. The same number
+/// when there may be no more, or the elements suffice.
+[[nodiscard]] Index elements_for(const MembraneSpace& space, const MembraneState& state, double accuracy);
+
+/// The same membrane on the elements of `to`: the curve and c are interpolated, the molecules' mass is the same to
+/// round-off.
+[[nodiscard]] Eigen::VectorXd transferred(const MembraneDynamics& from, const Eigen::VectorXd& y,
+                                          const MembraneDynamics& to);
+
+}  // namespace endoflow::boundary_integral
