@@ -179,8 +179,8 @@ class RunLoop {
     bool needs_more_elements() {
         if (!may_refine_) return false;
         const Index now = dynamics_.space().elements();
-        more_elements_ = elements_for(dynamics_.space(), dynamics_.unpack(integrator_.state()),
-                                      parameters_.boundary_integral.accuracy);
+        more_elements_ =
+            elements_for(dynamics_.space(), dynamics_.unpack(integrator_.state()), accuracy_of_elements(parameters_));
         return more_elements_ > now;
     }
 

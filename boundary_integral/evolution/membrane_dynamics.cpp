@@ -1,11 +1,15 @@
 #include "boundary_integral/evolution/membrane_dynamics.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <numbers>
 #include <utility>
 
 #include "boundary_integral/flow/free_space_flow.h"
 #include "boundary_integral/flow/normal_motion.h"
 #include "shared/geometry/initial_curve.h"
+#include "shared/support/error.h"
 
 namespace endoflow::boundary_integral {
 
@@ -15,6 +19,36 @@ std::unique_ptr<FlowModel> make_flow(const Parameters& parameters, const Membran
     if (parameters.fluid.dynamics == Dynamics::geometric) return std::make_unique<NormalMotion>(parameters, space);
     if (parameters.domain.kind == DomainKind::free_space) return std::make_unique<FreeSpaceFlow>(parameters, space);
     return std::make_unique<BoxFlow>(parameters, space);
+}
+
+// values + part * steps with the largest part, halved from `part` on, that leaves points + values in their order, each
+// interval at least a fifth of what it was.
+std::vector<double> without_crossing(const std::vector<double>& points, const std::vector<double>& values,
+                                     const std::vector<double>& steps, double part) {
+    constexpr double least_interval = 0.2, smallest_part = 1e-6;
+    const auto crosses = [&] {
+        for (std::size_t i = 1; i < points.size(); ++i) {
+            const double before = points[i] - points[i - 1] + values[i] - values[i - 1];
+            if (before + part * (steps[i] - steps[i - 1]) < least_interval * before) return true;
+        }
+        return false;
+    };
+    while (crosses() && part > smallest_part) part *= 0.5;
+    std::vector<double> moved = values;
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += part * steps[i];
+    return moved;
+}
+
+// Elements that fold over each other carry no membrane.
+void require_order(const MembraneSpace& space, const Eigen::VectorXd& shift, const MoleculeParameters& molecules) {
+    const bool ordered =
+        std::ranges::all_of(space.radial_rows, [&](const BasisRow& row) { return 1.0 + row.evaluate(shift, 1) > 0.0; });
+    if (!ordered)
+        throw SolverError(
+            "unresolved-coat-edge",
+            fmt::format("{} elements find no places around an edge of molecules.interface_width = {:g} nm",
+                        space.elements(), molecules.interface_width),
+            "raise it, or lower boundary_integral.mesh_edge_length");
 }
 
 }  // namespace
@@ -62,7 +96,7 @@ Eigen::VectorXd MembraneDynamics::initial_vector() const {
     const auto parameter = [&](double xi) { return xi + space_.radial().basis(xi).evaluate(shift); };
     MembraneState state;
     constexpr int sweeps = 200;
-    constexpr double relaxation = 0.3;
+    constexpr double relaxation = 0.3, least_density = 0.1;
     for (int sweep = 0;; ++sweep) {
         std::vector<double> r, z, c;
         for (const double xi : points) r.push_back(initial.radius(parameter(xi)));
@@ -73,15 +107,17 @@ Eigen::VectorXd MembraneDynamics::initial_vector() const {
         state = {radial(r), axial(z), axial(c)};
         if (sweep + 1 == sweeps) break;
         const Eigen::VectorXd ahead = mesh_.numbers_ahead(sample(space_, state));
-        std::vector<double> shifts;
+        std::vector<double> now, step;
         for (const double xi : points) {
             const BasisRow b = space_.radial().basis(xi);
-            shifts.push_back(b.evaluate(shift) - relaxation * b.evaluate(ahead) * (1.0 + b.evaluate(shift, 1)) /
-                                                     (1.0 + b.evaluate(ahead, 1)));
+            now.push_back(b.evaluate(shift));
+            step.push_back(-b.evaluate(ahead) * (1.0 + b.evaluate(shift, 1)) /
+                           std::max(least_density, 1.0 + b.evaluate(ahead, 1)));
         }
-        if (space_.end() == CurveEnd::clamped) shifts.back() = 0.0;
-        shift = radial(shifts);
+        if (space_.end() == CurveEnd::clamped) now.back() = step.back() = 0.0;
+        shift = radial(without_crossing(points, now, step, relaxation));
     }
+    require_order(space_, shift, parameters_.molecules);
     return packed(state);
 }
 

@@ -28,7 +28,7 @@ std::unique_ptr<MembraneDynamics> dynamics_with(const Parameters& parameters, In
 
 Index initial_elements(const Parameters& parameters) {
     if (parameters.boundary_integral.elements > 0) return parameters.boundary_integral.elements;
-    const double allowed = initial_part * parameters.boundary_integral.accuracy;
+    const double allowed = initial_part * accuracy_of_elements(parameters);
     for (Index elements = elements_asked_for(parameters);; elements = more(elements)) {
         if (elements == most_elements) return elements;
         const auto dynamics = dynamics_with(parameters, elements);

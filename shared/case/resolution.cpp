@@ -19,8 +19,8 @@ constexpr double accuracy_of_these = 1e-3, order = 12;
 /// With fewer of the elements that are needed, errors are ten times as large as allowed.
 constexpr double fewest_part = 0.8;
 
-/// Of boundary_integral.accuracy.
-constexpr double tolerance_part = 0.1;
+/// Of boundary_integral.accuracy, whose own bound is the strictest.
+constexpr double tolerance_part = 0.1, strictest = 1e-6;
 
 /// Cells of the diffuse engine must not exceed the layer's thickness by more than this.
 constexpr double largest_cells_per_epsilon = 1.5;
@@ -38,10 +38,15 @@ double length_of_membrane(const DomainParameters& d) {
 double needed_elements(const Parameters& p) {
     const double shape = std::max(fewest_for_the_shape, length_of_membrane(p.domain) / flat_element);
     const double edge = p.boundary_integral.mesh_edge_length / flat_element;
-    return std::ceil((shape + edge) * std::pow(accuracy_of_these / p.boundary_integral.accuracy, 1 / order));
+    return std::ceil((shape + edge) * std::pow(accuracy_of_these / accuracy_of_elements(p), 1 / order));
 }
 
 }  // namespace
+
+double accuracy_of_elements(const Parameters& p) {
+    const double asked = p.boundary_integral.accuracy;
+    return p.time.tolerance > 0 ? std::min(asked, std::max(strictest, p.time.tolerance / tolerance_part)) : asked;
+}
 
 int elements_asked_for(const Parameters& p) {
     return static_cast<int>(std::min<double>(needed_elements(p), most_elements));
@@ -54,8 +59,8 @@ double sharp_tolerance(const Parameters& p) {
 std::vector<ResolutionWarning> foreseen_inaccuracies(const Parameters& p) {
     std::vector<ResolutionWarning> warnings;
     const double needed = needed_elements(p), given = p.boundary_integral.elements;
-    const std::string wanted = fmt::format("boundary_integral.accuracy = {:g} needs about {:.0f} elements",
-                                           p.boundary_integral.accuracy, needed);
+    const std::string wanted =
+        fmt::format("an accuracy of {:g} needs about {:.0f} elements", accuracy_of_elements(p), needed);
     if (given > 0 && given < fewest_part * needed)
         warnings.push_back({"boundary-integral", fmt::format("{}, not {:g}", wanted, given),
                             "set boundary_integral.elements = 0, or raise accuracy"});

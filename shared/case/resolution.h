@@ -10,6 +10,10 @@ namespace endoflow {
 /// The sharp engine chooses no more elements than this: what needs more takes hours.
 inline constexpr int most_elements = 320;
 
+/// What the sharp engine's elements are chosen for: boundary_integral.accuracy, or what a stricter time.tolerance
+/// would be a tenth of, at least 10⁻⁶.
+[[nodiscard]] double accuracy_of_elements(const Parameters& parameters);
+
 /// Elements with which the sharp engine begins where boundary_integral.elements is 0, whatever its initial state is
 /// like: the shapes that are to come need them.
 [[nodiscard]] int elements_asked_for(const Parameters& parameters);

@@ -66,7 +66,13 @@ TEST_CASE("elements follow from the accuracy, the membrane's size and the coat's
     // A twelfth root of a hundredth is 1.47, but for rounding up.
     CHECK(static_cast<double>(elements_asked_for(parameters)) / static_cast<double>(standard) ==
           Approx(1.47).epsilon(0.02));
+    const int strict = elements_asked_for(parameters);
     parameters.boundary_integral.accuracy = 1e-3;
+    parameters.time.tolerance = 1e-6;  // elements keep up with the steps, but are no fewer where those are loose
+    CHECK(elements_asked_for(parameters) == strict);
+    parameters.time.tolerance = 1e-2;
+    CHECK(elements_asked_for(parameters) == standard);
+    parameters.time.tolerance = 0;
     parameters.domain.radius = 160;
     CHECK(elements_asked_for(parameters) == standard + 40);
     parameters.domain.radius = 1e4;
