@@ -1,11 +1,11 @@
 """What the sharp engine's accuracy is worth: runs without any override against budding times that are known better.
 
-    python3 tests/reliability/known_budding.py build/endoflow                       # default accuracy, all cases
-    python3 tests/reliability/known_budding.py build/endoflow --certify             # and whether their certificates hold
+    python3 tests/reliability/known_budding.py build/endoflow                # default accuracy, all cases
+    python3 tests/reliability/known_budding.py build/endoflow --certify      # and whether their certificates hold
     python3 tests/reliability/known_budding.py build/endoflow --cases standard --certify
 
-tests/reference/converged_budding.csv has the cases and their converged times. Prints a table. Ends with 1 when a time is off by
-more than twice boundary_integral.accuracy, or when fewer than nine of ten certificates hold the converged time.
+tests/reference/converged_budding.csv has the cases and their converged times. Prints a table. Ends with 1 when a time
+is off by more than twice boundary_integral.accuracy, or when fewer than nine of ten certificates hold the converged time.
 """
 
 import argparse
@@ -38,14 +38,17 @@ def known_cases():
     text = (ROOT / "tests" / "reference" / "converged_budding.csv").read_text(encoding="utf-8")
     rows = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
     return [
-        Known(row["case"], tuple(row["settings"].split()), row["end_us"], float(row["budding_us"]), float(row["error_us"]))
+        Known(
+            row["case"], tuple(row["settings"].split()), row["end_us"], float(row["budding_us"]), float(row["error_us"])
+        )
         for row in rows
     ]
 
 
 def run(program, known, directory, certify):
     """The run.json of a run with default accuracy."""
-    words = [program, "run", "boundary-integral", ROOT / "cases" / "standard.toml", "-o", directory, "--until", known.end]
+    case = ROOT / "cases" / "standard.toml"
+    words = [program, "run", "boundary-integral", case, "-o", directory, "--until", known.end]
     words += [word for setting in (*known.settings, *SETTINGS) for word in ("--set", setting)]
     words += ["--certify"] if certify else []
     subprocess.run([str(word) for word in words], check=True, stdout=subprocess.DEVNULL)
