@@ -22,8 +22,8 @@ constexpr const char* finer_elements =
     "leave boundary_integral.elements and time.tolerance at 0, and lower boundary_integral.accuracy";
 constexpr const char* finer_layer = "lower phase_field.epsilon (and cell_size with it), or time.tolerance";
 
-// An accurate run of either engine stays two orders of magnitude below its bounds; figures such as the time of budding
-// are off by per cents where the bounds are left, and by tens of per cents at the limits. Without a fluid a neck closes
+// Where the sharp engine's energy balance leaves its bound, necks and energies are off by some per mille, and by tens
+// of per cents at the limit (docs/results/sharp-refinement.md has the runs). Without a fluid a neck closes
 // in finite time, and no mesh follows its last nanometre: that raises the alarm, but the run ends when the neck has
 // closed.
 const std::vector<AccuracyBound>& boundary_integral_bounds() {
