@@ -3,9 +3,10 @@
 #include <mpi.h>
 
 #include <chrono>
-#include <cstdio>
+#include <csignal>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -15,6 +16,7 @@
 #include "phasefield/simulation.h"
 #include "shared/model/loads.h"
 #include "shared/output/run_output.h"
+#include "shared/support/console.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
 
@@ -48,30 +50,46 @@ std::unique_ptr<RunOutput> open_output(const RunRequest& request, int rank, int 
     return output;
 }
 
-/// mpirun kills its processes a second after it has asked them to end (odls_base_sigkill_timeout), often before a step
-/// is done. So a thread of the first process waits half of that after a signal, then writes the run's last word; what
-/// the last checkpoint holds is on the disk already.
+/// mpirun kills its processes a second after it has sent them SIGTERM (odls_base_sigkill_timeout), perhaps while they
+/// factorise. So a thread of the first process writes the run's last word at once, as of the checkpoint that is on the
+/// disk, and lets the step end or be given up for most of that second. Nobody hurries after another signal, which
+/// mpirun does not send.
 class LastWords {
   public:
-    LastWords(RunOutput& output, int processes) {
-        if (processes > 1) thread_ = std::jthread([&output](const std::stop_token& ended) { watch(output, ended); });
+    explicit LastWords(RunOutput& output) {
+        thread_ = std::jthread([&output](const std::stop_token& ended) { watch(output, ended); });
     }
 
   private:
     static void watch(RunOutput& output, const std::stop_token& ended) {
         constexpr auto pause = std::chrono::milliseconds(20);
-        constexpr int pauses_for_the_step = 25;
+        constexpr int pauses_for_the_step = 35;
         for (int waited = 0; !ended.stop_requested() && waited < pauses_for_the_step;) {
             std::this_thread::sleep_for(pause);
-            if (interruption_signal() != 0) ++waited;
+            if (interruption_signal() != SIGTERM) continue;
+            if (waited == 0) tell(output, leave_word(output));
+            ++waited;
         }
         if (ended.stop_requested()) return;
-        try {
-            output.leave_interrupted();
-        } catch (const Error& error) {
-            std::fputs((std::string("endoflow: ") + error.what() + "\n").c_str(), stderr);
-        }
+        leave_word(output);
         std::_Exit(exit_code_of_signal(interruption_signal()));
+    }
+
+    /// Whether there is a checkpoint to tell of.
+    static bool leave_word(RunOutput& output) {
+        try {
+            return output.leave_interrupted();
+        } catch (const Error& error) {
+            say(stderr, std::string("endoflow: ") + error.what() + "\n");
+            return false;
+        }
+    }
+
+    static void tell(const RunOutput& output, bool checkpoint) {
+        say(stdout,
+            std::string("\ninterrupted within a step, ") +
+                (checkpoint ? "continue from the last checkpoint with --restart" : "before the first checkpoint") +
+                "; results in " + one_line(output.directory().string()) + "\n");
     }
 
     std::jthread thread_;
@@ -86,7 +104,8 @@ int run(int argc, char** argv, int rank, int processes) {
     install_signal_handlers();
     const auto output = open_output(*request, rank, processes);
     if (!output) return 0;
-    const LastWords last_words(*output, processes);
+    std::optional<LastWords> last_words;
+    if (processes > 1 && rank == 0) last_words.emplace(*output);
     return run_to_the_end(*output, [&] { return phasefield::simulate(request->parameters, *output, MPI_COMM_WORLD); });
 }
 

@@ -7,10 +7,10 @@
 
 #include "phasefield/driver/clearance.h"
 #include "phasefield/driver/history.h"
+#include "phasefield/fem/interruption.h"
 #include "shared/model/membrane_energy.h"
 #include "shared/output/output_times.h"
 #include "shared/support/error.h"
-#include "shared/support/interruption.h"
 
 namespace endoflow::phasefield {
 
@@ -45,22 +45,31 @@ void TimeLoop::start_fresh() {
 }
 
 ExitReason TimeLoop::run() {
+    ExitReason reason = ExitReason::interrupted;
+    try {
+        reason = step_to_an_end();
+    } catch (const Interrupted&) {
+        output_.log_info("the step after t = " + std::to_string(time_) + " µs was given up");
+    }
+    if (reason != ExitReason::interrupted) write_shape(time_, contour_.curve);
+    checkpoint();
+    return reason;
+}
+
+ExitReason TimeLoop::step_to_an_end() {
     while (true) {
-        if (const auto reason = reason_to_stop()) {
-            if (*reason != ExitReason::interrupted) write_shape(time_, contour_.curve);
-            if (time_ > 0) checkpoint();
-            return *reason;
-        }
+        if (const auto reason = reason_to_stop()) return *reason;
         step();
         check_clearance();
         write_due_output();
+        follow();
         if (anywhere(output_.checkpoint_due())) checkpoint();
     }
 }
 
 std::optional<ExitReason> TimeLoop::reason_to_stop() {
     if (time_ >= parameters_.time.end * (1 - same_time)) return ExitReason::done;
-    if (anywhere(interruption_signal() != 0)) return ExitReason::interrupted;
+    if (interrupted(communicator_)) return ExitReason::interrupted;
     if (budding_time_ && parameters_.output.stop_at_budding) return ExitReason::budded;
     if (contour_.components > 1) return ExitReason::neck_closed;
     return {};
@@ -68,7 +77,7 @@ std::optional<ExitReason> TimeLoop::reason_to_stop() {
 
 void TimeLoop::step() {
     while (true) {
-        const double tau = scheme_->step(time_, next_deadline());
+        const double tau = scheme_->step(time_, parameters_.time.end);
         if (const auto outcome = attempt(tau)) {
             keep(*outcome, tau);
             return;
@@ -96,6 +105,9 @@ void TimeLoop::keep(const StepOutcome& outcome, double tau) {
     time_ += tau;
     record(tau, outcome.diagnostics);
     watch_neck(tau);
+}
+
+void TimeLoop::follow() {
     const PhaseTimer timer(output_, "mesh adaptation");
     scheme_->follow(contour_.curve);
 }
@@ -130,16 +142,14 @@ void TimeLoop::watch_neck(double tau) {
                           {"bud_diameter_nm", at_event.neck->lateral_diameter},
                           {"membrane_area_nm2", at_event.membrane_area},
                           {"bud_height_nm", at_event.bud_height}});
-    // Schemes that do not interpolate know the membrane at the end of the step only.
-    const double time = scheme_->interpolates() ? *budding_time_ : time_;
-    write_shapes_before(time);
-    write_shape(time, scheme_->interpolates() ? scheme_->contour_at(time).curve : contour_.curve);
+    write_shapes_before(*budding_time_);
+    write_shape(*budding_time_, scheme_->contour_at(*budding_time_).curve);
 }
 
 double TimeLoop::time_of_budding(double before, double tau, Observables& at_event) const {
     double low = time_ - tau, above = before, high = time_, below = *neck_radius_;
     const auto crossing = [&] { return low + (high - low) * (above - budding_neck_radius) / (above - below); };
-    for (int k = 0; scheme_->interpolates() && k < event_iterations; ++k) {
+    for (int k = 0; k < event_iterations; ++k) {
         const double time = crossing();
         const Observables middle = measure(scheme_->contour_at(time).curve, model_);
         if (!middle.neck) break;
@@ -155,24 +165,14 @@ void TimeLoop::check_clearance() const {
     require_clearance(contour_.curve, parameters_, time_);
 }
 
-double TimeLoop::next_deadline() const {
-    if (scheme_->interpolates()) return parameters_.time.end;
-    return std::min({parameters_.time.end, next_shape_, next_fields_});
-}
-
 void TimeLoop::plan_output(double time) {
-    next_shape_ = shape_after(time);
+    next_shape_ = next_shape_time(parameters_.output.shape_interval, time);
     next_fields_ = next_multiple(parameters_.output.field_interval, time);
 }
 
-/// Early shapes would cut the steps of a scheme that does not interpolate.
-double TimeLoop::shape_after(double time) const {
-    const double interval = parameters_.output.shape_interval;
-    return scheme_->interpolates() ? next_shape_time(interval, time) : next_multiple(interval, time);
-}
-
 void TimeLoop::write_shapes_before(double time) {
-    for (; next_shape_ < time * (1 - same_time); next_shape_ = shape_after(next_shape_))
+    for (; next_shape_ < time * (1 - same_time);
+         next_shape_ = next_shape_time(parameters_.output.shape_interval, next_shape_))
         write_shape(next_shape_, scheme_->contour_at(next_shape_).curve);
 }
 

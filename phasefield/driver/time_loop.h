@@ -19,10 +19,14 @@ class TimeLoop {
   private:
     void start_fresh();
     void restart(const Checkpoint& checkpoint);
+    /// Steps until there is a reason to stop. Throws Interrupted within a step, which then was not made.
+    ExitReason step_to_an_end();
     void step();
     /// The outcome of a trial step that may be kept; empty when it must be repeated with a smaller one.
     std::optional<StepOutcome> attempt(double tau);
     void keep(const StepOutcome& outcome, double tau);
+    /// The mesh follows the membrane, once the last step's output is written.
+    void follow();
     void record(double tau, const StepDiagnostics& diagnostics);
     void watch_neck(double tau);
     /// When the neck passed budding_neck_radius within the last step, and the observables then.
@@ -33,12 +37,10 @@ class TimeLoop {
     void write_shapes_before(double time);
     /// Unless there is one of this time already.
     void write_shape(double time, const MembraneCurve& curve);
-    [[nodiscard]] double shape_after(double time) const;
     /// The next shapes and fields are the first multiples of their intervals after `time`.
     void plan_output(double time);
     void write_fields(double time);
     void checkpoint();
-    [[nodiscard]] double next_deadline() const;
     [[nodiscard]] bool anywhere(bool here) const;
     [[nodiscard]] std::optional<ExitReason> reason_to_stop();
 

@@ -361,15 +361,13 @@ void RunOutput::finish(ExitReason reason) {
                                                        : "ended: " + to_string(reason) + ",");
 }
 
-void RunOutput::leave_interrupted() {
+bool RunOutput::leave_interrupted() {
     auto& self = *implementation_;
-    if (self.role == OutputRole::observer) return;
+    if (self.role == OutputRole::observer) return false;
     const std::lock_guard<std::mutex> guard(self.saving);
-    if (!self.words_if_interrupted.empty()) write_file_atomically(self.directory.record(), self.words_if_interrupted);
-    say(stdout, fmt::format("\ninterrupted within a step, {}; results in {}\n",
-                            self.words_if_interrupted.empty() ? "before the first checkpoint"
-                                                              : "continue from the last checkpoint with --restart",
-                            one_line(self.directory.root.string())));
+    if (self.words_if_interrupted.empty()) return false;
+    write_file_atomically(self.directory.record(), self.words_if_interrupted);
+    return true;
 }
 
 void RunOutput::finish_with_error(const std::string& message) {

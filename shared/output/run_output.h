@@ -83,9 +83,9 @@ class RunOutput {
 
     /// The last word of a run that ended well or was interrupted; prints how far it got and where its results are.
     void finish(ExitReason reason);
-    /// The last word of a run that cannot reach its next checkpoint before it is killed: run.json as of the last one,
-    /// with the state "interrupted". Any thread may call it while another one computes; the process ends after it.
-    void leave_interrupted();
+    /// For a run that may be killed before it reaches its next checkpoint: run.json as of the last one, with the state
+    /// "interrupted"; false when there is none. Any thread may call it while another one computes.
+    bool leave_interrupted();
     /// The last word of a run that a failure ended; the message goes to log.txt and run.json.
     void finish_with_error(const std::string& message);
 

@@ -199,6 +199,37 @@ class PhaseField(AnyEngine, unittest.TestCase):
                 result = self.run_with(f"time.end={end:.17g}", restart=True)
                 self.assertEqual(result.returncode, 0, result.stderr)
 
+    def test_interruption_within_a_step(self):
+        """The first step takes iterations of half a second each: it is given up, and the run goes on from where it was."""
+        fine = ("phase_field.epsilon=1", "phase_field.cell_size=1")
+        process = subprocess.Popen(self.words(self.directory, *fine, "time.end=5"), stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        history = self.directory / "history.csv"
+        while process.poll() is None and not (history.exists() and history.read_text().count("\n") > 1):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        told, errors = process.communicate(timeout=1200)
+        self.assertEqual((process.returncode, errors), (130, ""))
+        self.assertIn("interrupted, checkpoint written, at t = 0 µs", told)
+        self.assertEqual(history.read_text().count("\n"), 2)
+        self.assertEqual(self.run_with(*fine, "time.end=1e-7", restart=True).returncode, 0)
+        self.assertEqual(history.read_text().count("\n"), 3)
+
+    def test_early_shapes_of_both_schemes(self):
+        """Shapes stand at the times of the other engine, and no step ends there for their sake."""
+        for scheme in ("paper", "production"):
+            with self.subTest(scheme):
+                shutil.rmtree(self.directory, ignore_errors=True)
+                result = self.run_with(f"phase_field.scheme={scheme}", "time.end=1e-4", "output.shape_interval=8e-5")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                with h5py.File(self.directory / "shapes.h5") as file:
+                    shapes = [(float(shape.attrs["time"]), shape["z"][0]) for shape in file["shapes"].values()]
+                times, heights = zip(*shapes)
+                np.testing.assert_allclose(times, [0, *8e-5 / 2.0 ** np.arange(8, -1, -1), 1e-4], rtol=1e-12)
+                self.assertTrue(np.all(np.diff(heights) > 0), heights)
+                rows = np.genfromtxt(self.directory / "history.csv", delimiter=",", names=True)
+                self.assertFalse(set(times[1:-1]) & set(rows["time_us"]))
+
     def test_several_processes_and_a_directory_in_use(self):
         """The first process owns the lock; all end when it does not get it, and when there is nothing to do."""
         self.copy_finished_run()

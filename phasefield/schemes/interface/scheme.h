@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -41,7 +40,8 @@ class Scheme {
 
     /// The step to take now; it ends at `deadline` when that is near. [µs]
     [[nodiscard]] virtual double step(double time, double deadline) const = 0;
-    /// Tries a step and leaves the state alone. Throws SolverError when a system cannot be solved.
+    /// Tries a step and leaves the state alone. Throws SolverError when a system cannot be solved, and Interrupted when
+    /// the run was asked to stop; save() then writes what it would have written before the attempt.
     virtual StepOutcome attempt(double time, double tau) = 0;
     /// Makes the last attempt the state.
     virtual void keep(double time, double tau, const StepOutcome& outcome) = 0;
@@ -51,10 +51,9 @@ class Scheme {
     /// Adapts the mesh to the membrane if it has moved far enough.
     virtual void follow(const MembraneCurve& curve) = 0;
     [[nodiscard]] virtual LayerIntegrals integrate() const = 0;
-    /// Whether contour_at() and write_fields() know the state at any time of the last step; otherwise steps end there.
-    [[nodiscard]] virtual bool interpolates() const { return false; }
-    /// The membrane at a time [µs] within the last step, of schemes that interpolate.
-    [[nodiscard]] virtual Contour contour_at(double /*time*/) const { throw std::logic_error("no interpolation"); }
+    /// The membrane at a time [µs] within the last step, interpolated; before follow() alone.
+    [[nodiscard]] virtual Contour contour_at(double time) const = 0;
+    /// The fields, at such a time.
     virtual void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
                               double time) const = 0;
     /// Numbers of the scheme that are no parameters, for run.json.

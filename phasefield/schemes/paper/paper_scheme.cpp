@@ -1,5 +1,6 @@
 #include "phasefield/schemes/paper/paper_scheme.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "phasefield/schemes/paper/diagnostics.h"
@@ -65,8 +66,11 @@ StepOutcome PaperScheme::attempt(double /*time*/, double tau) {
     return outcome;
 }
 
-void PaperScheme::keep(double /*time*/, double tau, const StepOutcome& outcome) {
+void PaperScheme::keep(double time, double tau, const StepOutcome& outcome) {
+    take_over(before_, std::move(state_));
     take_over(state_, std::move(trial_));
+    time_ = time + tau;
+    last_step_ = tau;
     control_.accept(tau, outcome.diagnostics.motion_max);
     moved_ += outcome.diagnostics.motion_max;
     energy_ = outcome.diagnostics.bending_energy;
@@ -83,13 +87,30 @@ void PaperScheme::follow(const MembraneCurve& curve) {
     moved_ = 0;
 }
 
+State PaperScheme::state_at(double time) const {
+    State state = state_;
+    const double weight = last_step_ > 0 ? std::clamp((time_ - time) / last_step_, 0.0, 1.0) : 0;
+    const auto mix = [weight](Vector& end, const Vector& begin) {
+        if (weight > 0) end.sadd(1 - weight, weight, begin);
+        end.update_ghost_values();
+    };
+    mix(state.flow, before_.flow);
+    mix(state.molecules, before_.molecules);
+    mix(state.stretching, before_.stretching);
+    return state;
+}
+
+Contour PaperScheme::contour_at(double time) const {
+    return extract_contour(contour_fields(discretization_.spaces, state_at(time)), discretization_.parameters);
+}
+
 LayerIntegrals PaperScheme::integrate() const {
     return integrate_layer(discretization_.spaces, state_, discretization_.parameters);
 }
 
 void PaperScheme::write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
                                double time) const {
-    paper::write_fields(run_directory, times, time, discretization_.spaces, state_,
+    paper::write_fields(run_directory, times, time, discretization_.spaces, state_at(time),
                         discretization_.parameters.phase_field.paper);
 }
 

@@ -23,6 +23,7 @@ class PaperScheme : public Scheme {
     void reject(double time, double tau) override;
     void follow(const MembraneCurve& curve) override;
     [[nodiscard]] LayerIntegrals integrate() const override;
+    [[nodiscard]] Contour contour_at(double time) const override;
     void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
                       double time) const override;
     [[nodiscard]] double unknowns() const override;
@@ -30,12 +31,16 @@ class PaperScheme : public Scheme {
 
   private:
     StepOutcome begin();
+    /// Linear over the last step, as accurate as the steps are: φ moves by less than max_motion.
+    [[nodiscard]] State state_at(double time) const;
 
     Discretization discretization_;
     StepControl control_;
     State state_, trial_;
-    double moved_ = 0;   // since the mesh was made [nm]
-    double energy_ = 0;  // bending energy of the present state [pN nm]
+    State before_;                     // the last step, on its mesh: until follow()
+    double time_ = 0, last_step_ = 0;  // of state_ [µs]
+    double moved_ = 0;                 // since the mesh was made [nm]
+    double energy_ = 0;                // bending energy of the present state [pN nm]
 };
 
 }  // namespace endoflow::phasefield::paper

@@ -26,7 +26,6 @@ class ProductionScheme : public Scheme {
     void reject(double time, double tau) override;
     void follow(const MembraneCurve& curve) override;
     [[nodiscard]] LayerIntegrals integrate() const override { return integrals_; }
-    [[nodiscard]] bool interpolates() const override { return true; }
     [[nodiscard]] Contour contour_at(double time) const override { return contour(polynomial(time, times_.size())); }
     void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
                       double time) const override;

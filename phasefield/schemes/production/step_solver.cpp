@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "phasefield/fem/interruption.h"
 #include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/diagnostics.h"
 #include "phasefield/schemes/production/thickness_checkpoint.h"
@@ -64,6 +65,7 @@ StepSolver::Ending StepSolver::iterate(const Problem& problem, Vector& solution,
     std::optional<AndersonMixing> mixing;
     double first = 0, last = 0;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
+        give_up_if_interrupted(problem.space->dofs.get_communicator());
         const bool at_factors = iteration == 0 && newton != nullptr;
         const Vector step = at_factors ? *newton : increment(problem, solution);
         const double change = layer_increment(*problem.space, *problem.numbers, step, solution);
@@ -95,6 +97,7 @@ bool StepSolver::near_factors(const Problem& problem, const Vector& solution) co
 }
 
 StepSolver::Ending StepSolver::iterate_with_new_factors(const Problem& problem, Vector& solution) {
+    give_up_if_interrupted(problem.space->dofs.get_communicator());
     try {
         const Vector newton = factorise(problem, solution);
         return iterate(problem, solution, &newton);
@@ -105,7 +108,18 @@ StepSolver::Ending StepSolver::iterate_with_new_factors(const Problem& problem, 
 }
 
 void StepSolver::solve(const Space& space, const StepNumbers& numbers, const StepPast& history, Vector& solution) {
-    const Problem problem{&space, &numbers, &history};
+    const Origin before = origin_;
+    const Precision precision = system_.precision();
+    try {
+        converge({&space, &numbers, &history}, solution);
+    } catch (const Interrupted&) {
+        origin_ = before;
+        system_.use(precision);
+        throw;
+    }
+}
+
+void StepSolver::converge(const Problem& problem, Vector& solution) {
     const Precision precision = system_.precision();
     const Vector guess = solution;
     const auto start_again = [&] {

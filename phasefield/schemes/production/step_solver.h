@@ -21,7 +21,8 @@ class StepSolver {
     void reinit(const Space& space);
 
     /// `solution` holds the guess, then the solution, both with ghost values.
-    /// Throws SolverError("newton-divergence", …); the next call starts with new factors.
+    /// Throws SolverError("newton-divergence", …); the next call starts with new factors. Throws Interrupted between
+    /// two iterations; save() then tells of the factors that there were before.
     void solve(const Space& space, const StepNumbers& numbers, const StepPast& history, Vector& solution);
 
     /// What the factors were made from, so that a restart goes on with the same ones: vectors on the present mesh, and
@@ -53,6 +54,7 @@ class StepSolver {
         std::vector<Vector> vectors;  // the iterate, the guess, the solutions before, newest first
     };
 
+    void converge(const Problem& problem, Vector& solution);
     [[nodiscard]] bool near_factors(const Problem& problem, const Vector& solution) const;
     /// New factors at `solution`, and Newton's increment there.
     Vector factorise(const Problem& problem, const Vector& solution);
