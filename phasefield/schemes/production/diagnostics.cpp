@@ -66,7 +66,8 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
             // δ(E + E_c)/δc where the energy is coupled.
             const double potential = energy.coupled ? mu.value[q] : elastic.by_concentration;
             if (energy.coupled) {
-                const double line = w * weight.value * energy.edge.density(elastic.curvature, c.value[q], slope * slope).value;
+                const double line =
+                    w * weight.value * energy.edge.density(elastic.curvature, c.value[q], slope * slope).value;
                 diagnostics.line_energy += line;
                 diagnostics.bending_energy -= line;
                 const double driven = (mu.z[q] * sheet.r - mu.r[q] * sheet.z) / length;
