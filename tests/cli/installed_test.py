@@ -37,7 +37,7 @@ class Installed(unittest.TestCase):
     def test_engine_and_scripts(self):
         case = self.root / "empty.toml"
         case.write_text("")
-        settings = ["--set", "boundary_integral.elements=24", "--until", "0.0002"]
+        settings = ["--set", "boundary_integral.elements=36", "--until", "0.0002"]
         self.endoflow("run", "boundary-integral", case, "-o", self.root / "run", *settings)
         self.endoflow("revolve", self.root / "run")
         self.assertTrue((self.root / "run" / "membrane.pvd").is_file())
