@@ -22,7 +22,7 @@ PROGRAM = None
 
 ENGINES = {
     # name of the engine, settings of a run whose steps take a fraction of a second and that writes after every step
-    "boundary-integral": ("boundary_integral.elements=24", "boundary_integral.threads=1",
+    "boundary-integral": ("boundary_integral.elements=36", "boundary_integral.threads=1",
                           "output.shape_interval=0.0005"),
     "phase-field": ("domain.radius=40", "domain.height=40", "domain.membrane_height=20", "molecules.patch_radius=20",
                     "phase_field.epsilon=4", "phase_field.cell_size=4", "molecules.interface_width=4"),
