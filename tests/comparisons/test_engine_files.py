@@ -26,8 +26,8 @@ class EngineFiles(unittest.TestCase):
             self.assertEqual(set(file["shapes/000000"]), set(FIELDS))
         run = endoflow.load(directory)
         self.assertEqual(run.engine, name.split(",")[0])
-        # An interval of 5e-5 µs is halved towards the start, but for the scheme whose steps end at every shape.
-        early = [] if name.endswith("paper") else [5e-5 / 2**k for k in range(8, 0, -1)]
+        # An interval of 5e-5 µs is halved towards the start.
+        early = [5e-5 / 2**k for k in range(8, 0, -1)]
         np.testing.assert_allclose(run.shape_times, [0, *early, 5e-5, 1e-4], rtol=1e-9)
         self.assertNotIn(None, run.history_units.values())
         self.assertEqual(run.parameters["molecules"]["patch_radius"], 36.0)

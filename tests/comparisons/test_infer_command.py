@@ -61,7 +61,7 @@ class Refused(StudyTest):
 
 @unittest.skipUnless(PROGRAM and Path(PROGRAM).exists(), "ENDOFLOW_PROGRAM names no program")
 class WithTheEngine(StudyTest):
-    SETTINGS = {"boundary_integral.elements": 24, "output.field_interval": 0}
+    SETTINGS = {"boundary_integral.elements": 36, "output.field_interval": 0}
 
     def setUp(self):
         super().setUp()
