@@ -7,6 +7,7 @@ also when an engine refused a run: its item's page says so; 2 bad command line o
 143 interrupted (run it again to continue).
 """
 
+import hashlib
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -19,6 +20,9 @@ from comparisons.studies.study import lock, program, run_members
 from .options import study_parser
 
 NAMES = ("table2", "fig3", "fig4", "fig5", "fig6", "fig7", "figA2", "mobility", "attribution", "timescale", "inertia")
+
+#: Bytes; programs and archives append words of their own.
+LONGEST_NAME = 200
 
 #: Items of other papers, which `all` leaves out.
 OTHER_NAMES = ("hassinger2017", "derenyi2002", "juelicher1996")
@@ -45,7 +49,15 @@ def directory_of(wanted, settings):
     from comparisons.studies.members import directory_name
 
     words = [wanted.case, *([directory_name(settings).replace("/", ",")] if settings else [])]
-    return Path("runs") / ",".join(words) / wanted.engine
+    return Path("runs") / short_enough(",".join(words)) / wanted.engine
+
+
+def short_enough(name):
+    """A file's name that file systems take, which end at 255 bytes: a long one ends in a digest of the whole."""
+    if len(name.encode()) <= LONGEST_NAME:
+        return name
+    digest = hashlib.sha256(name.encode()).hexdigest()[:12]
+    return f"{name.encode()[: LONGEST_NAME - 13].decode(errors='ignore')},{digest}"
 
 
 def own_settings(options):

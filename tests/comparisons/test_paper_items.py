@@ -6,6 +6,7 @@ from pathlib import Path
 import locations  # noqa: F401
 import numpy as np
 import endoflow
+from comparisons.commands.reproduce import LONGEST_NAME, short_enough
 from comparisons.paper import attribution, mobility, printed, table2, timescale
 from comparisons.paper.item import NotRun
 from comparisons.studies.members import flat_parameters
@@ -15,6 +16,15 @@ def run_with(area, time=(0.0, 0.5)):
     """A run whose history has only times and areas."""
     history = {"time_us": np.array(time), "membrane_area_nm2": np.array(area, dtype=float)}
     return endoflow.Run(Path("."), {"events": {}, "exit_reason": "done"}, {}, history, [])
+
+
+class NamesOfRuns(unittest.TestCase):
+    def test_a_name_that_no_file_system_takes_is_shortened_and_stays_one_of_its_own(self):
+        long = [",".join(f"setting_{i}={value}" for i in range(30)) for value in (1, 2)]
+        short = [short_enough(name) for name in long]
+        self.assertEqual(short_enough("standard,epsilon=0.85"), "standard,epsilon=0.85")
+        self.assertEqual([len(name.encode()) for name in short], [LONGEST_NAME] * 2)
+        self.assertNotEqual(*short)
 
 
 class PrintedSettings(unittest.TestCase):
