@@ -67,14 +67,6 @@ class Pages(unittest.TestCase):
             missing += [f"{page.name}: {name}" for name in tests if not known & {f"{name}.cpp", f"{name}.py"}]
         self.assertEqual(missing, [])
 
-    def test_every_column_is_described(self):
-        """Those of the phase field; the other tables are compared by the tests of their parts."""
-        text = (locations.ROOT / "docs" / "outputs.md").read_text(encoding="utf-8")
-        source = (locations.ROOT / "phasefield/driver/history.cpp").read_text(encoding="utf-8")
-        names = re.findall(r'"(\w+)"', re.search(r"return \{((?:\s*\"\w+\",?)+)", source)[1])
-        self.assertGreaterEqual(len(names), 14)
-        self.assertEqual([name for name in names if f"`{name}`" not in text], [])
-
     def test_every_page_is_listed(self):
         index = (locations.ROOT / "docs" / "index.md").read_text(encoding="utf-8")
         linked = {target.split("#")[0] for target in LINK.findall(index)}
