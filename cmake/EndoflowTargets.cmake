@@ -53,6 +53,12 @@ elseif(ENDOFLOW_FUZZ)
   target_link_options(endoflow_sanitizers INTERFACE -fsanitize=address,undefined)
 endif()
 
+# endoflow_compile_together(TARGET): with ENDOFLOW_UNITY the target's files are compiled eight at a time, so that the headers
+# of deal.II, which take most of a file's time, are read once for all. Names in unnamed namespaces then meet each other.
+function(endoflow_compile_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${ENDOFLOW_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
 # endoflow_add_part(TARGET PART sources… [HEADERS headers…]) makes a static library of one part; its users see PART's
 # headers, or those named alone.
 function(endoflow_add_part target part)

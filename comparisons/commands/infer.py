@@ -27,19 +27,26 @@ def parsed(arguments):
         "--calibrate", metavar="N", type=positive_integer, help="do N cases with known truth as well: ranks and coverage"
     )
     parser.add_argument(
+        "--truth", metavar="DIR", type=Path, help="--calibrate with data from this run of either engine, its parameters being true"
+    )
+    parser.add_argument(
         "--sensitivity", action="store_true", help="Sobol indices of budding time, neck and diameter as well"
     )
     return parser.parse_args(arguments)
 
 
-def calibration(problem, simulator, trained, count, say):
+def calibration(problem, simulator, trained, options, say):
     """The entry `calibration` of infer.json."""
-    from comparisons.inference.calibration import calibrate, summary, truths
+    from comparisons.inference.calibration import calibrate, summary, truth_of_run, truths
 
-    seed = problem.study.seed + 100
-    truth = truths(problem, count, seed)
-    say(f"calibration: {count} run(s) with true values drawn from the priors")
-    courses = simulator.courses(truth[:, : problem.engine_count])
+    count, seed = options.calibrate, problem.study.seed + 100
+    if options.truth:
+        x, course = truth_of_run(problem, options.truth)
+        truth, courses = [x] * count, [course] * count
+    else:
+        truth = truths(problem, count, seed)
+        say(f"calibration: {count} run(s) with true values drawn from the priors")
+        courses = simulator.courses(truth[:, : problem.engine_count])
     say(f"calibration: {count} posteriors on the emulator")
     kept = []
     for number, (x, course) in enumerate(zip(truth, courses)):
@@ -48,7 +55,11 @@ def calibration(problem, simulator, trained, count, say):
         kept += [case] if case is not None else []
     if not kept:
         raise StudyError("no calibration case ends as the emulator's runs do; narrow the priors", BAD_INPUT)
-    return {**summary(problem, kept), "left_out": count - len(kept)}
+    return {
+        **summary(problem, kept),
+        "left_out": count - len(kept),
+        "truth": str(options.truth) if options.truth else None,
+    }
 
 
 def fill(results, problem, simulator, options, units, output):
@@ -72,7 +83,7 @@ def fill(results, problem, simulator, options, units, output):
     if options.calibrate or options.sensitivity:
         trained = pipeline.over_priors(problem, simulator, say)
         if options.calibrate:
-            results["calibration"] = calibration(problem, simulator, trained, options.calibrate, say)
+            results["calibration"] = calibration(problem, simulator, trained, options, say)
             drawn |= inference_plots.write_calibration(results["calibration"], output)
         if options.sensitivity:
             results["sensitivity"] = indices(problem, trained, problem.study.seed)
@@ -129,6 +140,8 @@ def run(options):
         raise StudyError(f"{options.study}: needs [[data]], or --sensitivity, which does without", BAD_INPUT)
     if options.calibrate and not (study.data or study.contours):
         raise StudyError(f"{options.study}: --calibrate needs [[data]] for times and errors", BAD_INPUT)
+    if options.truth and not options.calibrate:
+        raise StudyError("--truth needs --calibrate N: how often regions hold it", BAD_INPUT)
     output = options.output or Path("out") / options.study.stem / "infer"
     settings = [f"{key}={str(value).lower() if isinstance(value, bool) else value}" for key, value in study.settings.items()]
     parameters = resolved_parameters(program(), study.case, settings)

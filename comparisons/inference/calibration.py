@@ -3,6 +3,7 @@
 Simulation-based calibration (Talts et al., arXiv:1804.06788): true values are drawn from the priors, data from a run with
 them and from the errors; then the ranks of true values among independent samples of the posterior are uniform, and a region
 of 90 % holds the truth in 90 % of the cases. The runs that make the data are not those that the emulator is made from.
+With the data of one run of the other engine, and errors drawn anew, the same counts show what the engines' difference does.
 """
 
 from dataclasses import dataclass
@@ -10,8 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import binom, chisquare
 
+import endoflow
+from comparisons.errors import BAD_INPUT, StudyError
 from comparisons.inference.batch import batch_of
 from comparisons.inference.best_fit import prior_precision
+from comparisons.inference.course import course_of
 from comparisons.inference.sampling import Density, ensemble, highest_density_level
 from comparisons.inference.training import slopes
 
@@ -38,6 +42,15 @@ def truths(problem, count, seed):
     """Coordinates (count, unknowns) drawn from the priors."""
     fractions = np.random.default_rng(seed).random((count, len(problem.unknowns)))
     return np.column_stack([prior.from_fraction(fractions[:, i]) for i, prior in enumerate(problem.priors)])
+
+
+def truth_of_run(problem, directory):
+    """(coordinates (unknowns,), Course) of a run of either engine, made outside of the study. Raises StudyError."""
+    try:
+        run = endoflow.load(directory)
+    except endoflow.EndoflowError as error:
+        raise StudyError(str(error), BAD_INPUT) from None
+    return problem.coordinates(run.parameters), course_of(run, problem.columns, problem.contours)
 
 
 def calibrate(problem, trained, truth, course, seed):

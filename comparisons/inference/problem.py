@@ -69,6 +69,19 @@ class Problem:
                     found[key] = found.get(key, self.base[key]) * factor
         return {key: f"{value:.{DIGITS}g}" for key, value in found.items()}
 
+    def coordinates(self, parameters):
+        """Coordinates (unknowns,) of a run with these parameters. Raises StudyError where they do not say what an unknown is."""
+        flat, found = flat_parameters(parameters), []
+        for unknown, (lowest, highest) in zip(self.unknowns, self.limits):
+            if not unknown.key:
+                raise StudyError(f"unknown {unknown.name} is no parameter's value: no run says what it truly is", BAD_INPUT)
+            value = float(flat[unknown.key])
+            x = float(unknown.prior.coordinate(value))
+            if not lowest <= x <= highest:
+                raise StudyError(f"{unknown.key} = {value:g} is outside of what its prior allows; widen it", BAD_INPUT)
+            found.append(x)
+        return np.array(found)
+
     def display(self, x):
         """Values (n, unknowns) of coordinates."""
         return np.column_stack([prior.value(x[:, i]) for i, prior in enumerate(self.priors)])

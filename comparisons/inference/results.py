@@ -16,7 +16,7 @@ infer.json:
     directions            [{combination, deviation, shrinkage, verdict, vector}], see comparisons/inference/identifiability.py
     posterior             {samples, effective, autocorrelation, acceptance, converged, budding_time_us: {median, low, high} or null}
     emulator              {degree, runs, excluded, error, check: {size, worst, unlike, runs}, crowded}: errors in those of the data
-    calibration           see comparisons/inference/calibration.py; only with --calibrate
+    calibration           see comparisons/inference/calibration.py; only with --calibrate. truth: the directory of --truth, or null
     sensitivity           see comparisons/inference/sensitivity.py; only with --sensitivity
 
 posterior.csv: one sample in a row, a column for each unknown. predictive.csv: column, time_us, low, median, high (90 % band).

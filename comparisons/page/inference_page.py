@@ -105,7 +105,9 @@ def calibration_table(calibration):
         groups = ", ".join(map(str, one["groups"]))
         rows.append(("", [f"ranks of {escaped(one['unknown'])}", groups, f"p = {figures(one['p_value'], 2)}"]))
     left_out = f"{calibration['left_out']} left out because their run failed or ended unlike the others"
-    note = f'<p class="note">{calibration["cases"]} cases; {left_out}.</p>'
+    truth = calibration["truth"]
+    drawn = f"the parameters of {escaped(truth)}, whose numbers are the data of all" if truth else "drawn from the priors"
+    note = f'<p class="note">{calibration["cases"]} cases, true values: {drawn}; {left_out}.</p>'
     return note + report.table(["", "", ""], rows, "text")
 
 

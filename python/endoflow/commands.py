@@ -105,19 +105,21 @@ def infer(
     *,
     output: Directory | None = None,
     calibrate: int = 0,
+    truth: Union[Run, Directory, None] = None,
     sensitivity: bool = False,
     jobs: int | None = None,
     processes: int = 1,
 ) -> dict[str, Any]:
     """Parameters from data: the study is a TOML file; returns infer.json and leaves it with plots and report.html in `output`.
 
-    calibrate: as many cases with known truth as well; sensitivity: Sobol indices as well. Runs that are finished in `output` [out/STUDY/infer]
+    calibrate: as many cases with known truth as well, that of a run `truth` if given; sensitivity: Sobol indices as well. Runs that are finished in `output` [out/STUDY/infer]
     are not repeated.
     """
     directory = Path(output) if output is not None else Path("out") / Path(study).stem / "infer"
     arguments = ["infer", str(study), "-o", str(directory), "--processes", str(processes)]
     arguments += [] if jobs is None else ["--jobs", str(jobs)]
     arguments += ["--calibrate", str(calibrate)] if calibrate else []
+    arguments += [] if truth is None else ["--truth", str(truth.directory if isinstance(truth, Run) else truth)]
     arguments += ["--sensitivity"] if sensitivity else []
     call(arguments)
     results: dict[str, Any] = json.loads((directory / "infer.json").read_text(encoding="utf-8"))

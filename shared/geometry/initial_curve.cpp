@@ -12,7 +12,7 @@ namespace endoflow {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int pieces = 64;
 
 /// Along the meridian between two parameters s, nm.

@@ -10,7 +10,7 @@ namespace endoflow {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 template <class Function>
 double integral(const Function& function, double end) {

@@ -10,6 +10,7 @@ import stand_in
 import synthetic
 
 import endoflow
+from comparisons.errors import StudyError
 from comparisons.inference import calibration, pipeline, sensitivity
 from comparisons.inference.batch import Outputs, batch_of, values_at
 from comparisons.inference.best_fit import best_fit
@@ -267,6 +268,20 @@ class Calibration(InferTest):
         self.assertGreater(ninety, 0.76)
         for entry in found["ranks"]:
             self.assertGreater(entry["p_value"], 1e-4, entry)
+
+
+    def test_a_run_says_what_is_true(self):
+        """The parameters of a run are coordinates that give them back; what they do not say is refused by name."""
+        self.write_neck({}, count=12)
+        problem = self.problem(TWO_UNKNOWNS + NECK)
+        x = problem.coordinates(stand_in.PARAMETERS)
+        np.testing.assert_allclose(problem.display(x[None, :])[0], (0.01, 0.07), rtol=1e-14)
+        far = {**stand_in.PARAMETERS, "membrane": {**stand_in.PARAMETERS["membrane"], "spontaneous_curvature": 0.2}}
+        with self.assertRaisesRegex(StudyError, "spontaneous_curvature = 0.2 is outside of what its prior allows"):
+            problem.coordinates(far)
+        shifted = '[[unknown]]\ntime_offset = true\nprior = "uniform"\nlow = -0.1\nhigh = 0.1\n'
+        with self.assertRaisesRegex(StudyError, "unknown time_offset is no parameter's value"):
+            self.problem(TWO_UNKNOWNS + shifted + NECK).coordinates(stand_in.PARAMETERS)
 
 
 class Sensitivity(InferTest):

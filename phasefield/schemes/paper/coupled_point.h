@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include "phasefield/fem/local_system.h"
@@ -35,6 +37,20 @@ struct StepCoefficients {
 };
 
 using CoupledPoints = std::vector<CoupledPoint>;
+
+/// A term's coefficient at all quadrature points: coefficient(point), or coefficient(point, number) for what the iterate holds.
+template <class Function>
+Coefficients at_points(const CoupledPoints& points, const Function& coefficient) {
+    Coefficients out(points.size());
+    for (std::size_t q = 0; q < points.size(); ++q) {
+        if constexpr (std::is_invocable_v<Function, const CoupledPoint&, std::size_t>) {
+            out[q] = coefficient(points[q], q);
+        } else {
+            out[q] = coefficient(points[q]);
+        }
+    }
+    return out;
+}
 
 /// Terms of (32)-(34) and of (35)-(37), time-discretised as in Sec. 3. Each adds its residual and Jacobian.
 void add_flow_terms(const CoupledPoints& points, const StepCoefficients& step, LocalSystem& local);

@@ -4,13 +4,6 @@ namespace endoflow::phasefield::paper {
 
 namespace {
 
-template <class Function>
-Coefficients at_points(const CoupledPoints& points, const Function& coefficient) {
-    Coefficients out(points.size());
-    for (std::size_t q = 0; q < points.size(); ++q) out[q] = coefficient(points[q]);
-    return out;
-}
-
 /// (32): −∇·(ν D), weakly ∫ ½ ν D(u):D(v) with the hoop term 2 ν u_r v_r / r².
 void add_viscous_stress(const CoupledPoints& points, LocalSystem& local) {
     const auto nu = at_points(points, [](const auto& p) { return p.measure * p.viscosity; });

@@ -4,13 +4,6 @@ namespace endoflow::phasefield::paper {
 
 namespace {
 
-template <class Function>
-Coefficients at_points(const CoupledPoints& points, const Function& coefficient) {
-    Coefficients out(points.size());
-    for (std::size_t q = 0; q < points.size(); ++q) out[q] = coefficient(points[q], q);
-    return out;
-}
-
 /// The mixture of old and new: ∇φ_w = (1 − w) ∇φⁿ + w ∇φ.
 struct MixedGradient {
     Coefficients r, z;
