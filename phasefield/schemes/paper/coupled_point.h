@@ -38,7 +38,8 @@ struct StepCoefficients {
 
 using CoupledPoints = std::vector<CoupledPoint>;
 
-/// A term's coefficient at all quadrature points: coefficient(point), or coefficient(point, number) for what the iterate holds.
+/// A term's coefficient at all quadrature points: coefficient(point), or coefficient(point, number) for what the
+/// iterate holds.
 template <class Function>
 Coefficients at_points(const CoupledPoints& points, const Function& coefficient) {
     Coefficients out(points.size());
