@@ -112,10 +112,9 @@ class DataOfTheDiffuseEngine(StudyTest):
     def test_viscosity_and_the_time_of_an_outline(self):
         """Necks and an outline of unknown time give back the run's viscosity and that time.
 
-        In this time the engines' necks differ by up to 0.016 nm and the outlines by 0.04 nm (rms). The neck closes by
-        3.3 nm and the outline moves by some 5 nm in a tenth of the time, or with a tenth of the viscosity: 0.1 and 0.2 %;
-        an accuracy of 1 % of the time of budding adds as much. So half a per cent holds, and the 90 % regions of data with errors of
-        0.1 and 0.3 nm hold the truth.
+        A hundredth of the viscosity, or of the time, is 0.1 nm of these necks and 0.13 nm of the outline's height. The engines'
+        necks differ by up to 0.016 nm here, the outlines by 0.04 nm (rms) and 0.09 nm at most: 0.2 and 0.3 to 0.7 %. An accuracy
+        of 1 % of the time of budding adds less. With errors of 0.1 and 0.3 nm the 90 % regions hold the truth.
         """
         self.program = Path(PROGRAM)
         reference = locations.ROOT / "tests" / "reference"
@@ -128,8 +127,11 @@ class DataOfTheDiffuseEngine(StudyTest):
         process = self.call("infer", "study.toml", "-o", "found")
         self.assertEqual((process.returncode, process.stderr), (0, ""))
         found = {one["name"]: one for one in json.loads((self.scratch / "found/infer.json").read_text())["unknowns"]}
-        for name, truth in (("fluid.viscosity_intracellular", self.VISCOSITY), ("contour_1_time", self.DATED)):
-            self.assertAlmostEqual(found[name]["best"] / truth, 1, delta=5e-3)
+        for name, truth, difference in (
+            ("fluid.viscosity_intracellular", self.VISCOSITY, 4e-3),
+            ("contour_1_time", self.DATED, 1e-2),
+        ):
+            self.assertAlmostEqual(found[name]["best"] / truth, 1, delta=difference)
             self.assertLess(found[name]["low"], truth)
             self.assertGreater(found[name]["high"], truth)
 
