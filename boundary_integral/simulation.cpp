@@ -32,7 +32,7 @@ EngineIdentity identity(const Parameters& parameters) {
     identity.libraries = {
         {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
         {"sundials", SUNDIALS_VERSION}};
-    identity.history_columns = names_of(own_history_columns());
+    identity.history_columns = texts_of(own_history_columns());
     return identity;
 }
 

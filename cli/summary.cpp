@@ -3,42 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "shared/output/history_file.h"
+#include "shared/output/run_record.h"
 #include "shared/support/error.h"
 
 namespace endoflow::cli {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json read_record(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    if (!stream) throw IoError(file.string() + ": cannot be read; give the directory of a run");
-    try {
-        return Json::parse(stream);
-    } catch (const Json::exception& failure) {
-        throw IoError(fmt::format("{}: damaged run record: {}", file.string(), failure.what()));
-    }
-}
-
-std::vector<std::string> cells(const std::string& line) {
-    std::vector<std::string> result(1);
-    for (const char c : line) {
-        if (c == ',')
-            result.emplace_back();
-        else
-            result.back() += c;
-    }
-    return result;
-}
 
 /// A column's name as words, and its unit: "membrane_area_nm2" is {"membrane area", "nm²"}.
 std::pair<std::string, std::string> words_and_unit(std::string column) {
@@ -61,46 +38,34 @@ std::pair<std::string, std::string> words_and_unit(std::string column) {
     return {column, unit == units.end() ? "" : unit->second};
 }
 
-/// A cell with five digits; what is no number as it is.
-std::string rounded(const std::string& cell) {
-    double number = 0;
-    const auto [rest, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-    const bool whole = error == std::errc{} && rest == cell.data() + cell.size();
-    return cell.empty() ? "-" : whole ? fmt::format("{:.5g}", number) : cell;
-}
-
 /// The last complete row of history.csv as "name  value unit" lines; stationary shapes have no time.
-std::string last_row(const std::filesystem::path& file, bool has_time) {
-    std::ifstream stream(file);
-    if (!stream) throw IoError(file.string() + ": cannot be read");
-    std::string header, line, last;
-    std::getline(stream, header);
-    while (std::getline(stream, line))
-        if (!stream.eof()) last = line;
-    const auto names = cells(header), values = cells(last);
-    if (last.empty() || names.size() != values.size()) return "  no step was recorded\n";
+std::string last_row(const RunDirectory& directory, bool has_time) {
+    const History history = read_history(directory.history());
+    if (history.rows.empty()) return "  no step was recorded\n";
     std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (!has_time && (names[i] == "time_us" || names[i] == "step_us")) continue;
-        const auto [words, unit] = words_and_unit(names[i]);
-        text += fmt::format("  {:<30} {}{}{}\n", words, rounded(values[i]),
-                            values[i].empty() || unit.empty() ? "" : " ", values[i].empty() ? "" : unit);
+    for (std::size_t i = 0; i < history.columns.size(); ++i) {
+        const std::string& column = history.columns[i];
+        if (!has_time && (column == "time_us" || column == "step_us")) continue;
+        const auto [words, unit] = words_and_unit(column);
+        const std::optional<double> value = history.rows.back()[i];
+        text += fmt::format("  {:<30} {}{}{}\n", words, value ? fmt::format("{:.5g}", *value) : "-",
+                            value && !unit.empty() ? " " : "", value ? unit : "");
     }
     return text;
 }
 
 /// How far the quantity of an alarm went in the whole run.
-double largest(const Json& record, const Json& alarm) {
+double largest(const RunRecord& record, const RunRecord& alarm) {
     return record.at("accuracy").at(alarm.at("name").get<std::string>()).at("largest").get<double>();
 }
 
 /// How far a run came; a branch of stationary shapes counts its shapes where a run has its time.
-std::string reached(const Json& record) {
+std::string reached(const RunRecord& record) {
     if (record.at("engine") != "statics")
         return fmt::format("t = {:.6g} of {:g} µs", record.at("time_us").get<double>(),
                            record.at("parameters").at("time").at("end").get<double>());
     if (!record.at("notes").contains("branch")) return "one stationary shape";
-    const Json& branch = record.at("notes").at("branch");
+    const RunRecord& branch = record.at("notes").at("branch");
     return fmt::format("{} stationary shapes, {} from {:g} to {:.6g}", branch.at("points").get<long>(),
                        branch.at("parameter").get<std::string>(), branch.at("begin").get<double>(),
                        branch.at("end").get<double>());
@@ -124,13 +89,13 @@ std::string sharp_resolution(const Json& record) {
 }
 
 /// What the numbers rest on: conventions and resolution.
-std::string basis(const Json& record) {
-    const Json& parameters = record.at("parameters");
-    const Json& notes = record.at("notes");
+std::string basis(const RunRecord& record) {
+    const RunRecord& parameters = record.at("parameters");
+    const RunRecord& notes = record.at("notes");
     std::string resolution;
     if (record.at("engine") == "phase-field") {
         const double chosen = notes.value("cell_size_nm", 0.0);
-        const Json& own = parameters.at("phase_field");
+        const RunRecord& own = parameters.at("phase_field");
         resolution = fmt::format("layer of epsilon = {:g} nm", own.at("epsilon").get<double>());
         if (chosen > 0) resolution += fmt::format(" on cells of {:.4g} nm", chosen);
     } else {
@@ -143,7 +108,7 @@ std::string basis(const Json& record) {
 }
 
 /// Value ± error of what `--certify` looked at; the error has one digit, the value as many.
-std::string certified(const Json& record) {
+std::string certified(const RunRecord& record) {
     if (!record.contains("certificate")) return "";
     std::string text;
     for (const auto& [name, entry] : record.at("certificate").at("values").items()) {
@@ -157,10 +122,10 @@ std::string certified(const Json& record) {
 }
 
 /// One line for each quantity that left the bounds of an accurate run.
-std::string alarms(const Json& record) {
+std::string alarms(const RunRecord& record) {
     if (!record.contains("alarms")) return "";
     std::string text;
-    for (const Json& alarm : record.at("alarms"))
+    for (const RunRecord& alarm : record.at("alarms"))
         text += fmt::format("  alarm: {} at t = {:.4g} µs: {}: {:.2g}, allowed {:g}; {}\n",
                             alarm.at("name").get<std::string>(), alarm.at("time_us").get<double>(),
                             alarm.at("meaning").get<std::string>(), largest(record, alarm),
@@ -168,7 +133,7 @@ std::string alarms(const Json& record) {
     return text.empty() ? "  no alarms: every balance stayed within its bound\n" : text;
 }
 
-std::string describe(const Json& record, const std::filesystem::path& directory) {
+std::string describe(const RunRecord& record, const std::filesystem::path& directory) {
     const auto& steps = record.at("steps");
     const auto& reason = record.at("exit_reason");
     std::string text = fmt::format("{}: case '{}', {} engine\n", directory.string(),
@@ -189,15 +154,14 @@ std::string describe(const Json& record, const std::filesystem::path& directory)
 
 }  // namespace
 
-std::string summarize_run(const std::filesystem::path& directory) {
-    const auto file = directory / "run.json";
-    const Json record = read_record(file);
+std::string summarize_run(const std::filesystem::path& root) {
+    const RunDirectory directory{root};
+    const RunRecord record = read_record(directory);
     try {
         const bool moves = record.at("engine") != "statics";
-        return describe(record, directory) + (moves ? "last step:\n" : "last shape:\n") +
-               last_row(directory / "history.csv", moves);
-    } catch (const Json::exception& failure) {
-        throw IoError(fmt::format("{}: not a complete run record: {}", file.string(), failure.what()));
+        return describe(record, root) + (moves ? "last step:\n" : "last shape:\n") + last_row(directory, moves);
+    } catch (const RunRecord::exception& failure) {
+        throw IoError(fmt::format("{}: not a complete run record: {}", directory.record().string(), failure.what()));
     }
 }
 

@@ -77,7 +77,7 @@ EngineIdentity identity(int processes) {
                               std::to_string(PETSC_VERSION_SUBMINOR);
     return {"phase-field",
             {{"deal.II", DEAL_II_PACKAGE_VERSION}, {"PETSc", petsc}, {"MUMPS", MUMPS_VERSION}},
-            names_of(own_history_columns()),
+            texts_of(own_history_columns()),
             processes,
             1,
             RowOrder::in_time};

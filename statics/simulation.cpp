@@ -49,20 +49,54 @@ Parameters resolved(const Parameters& parameters, const Request& request) {
     return request.disc_mass ? with_disc_mass(parameters) : parameters;
 }
 
+/// What one stationary shape says of itself.
+struct ShapeRecord {
+    const Parameters& named;  // the case the user sees
+    const MembraneCurve& curve;
+    const BranchPoint& point;
+    const ShapeIntegrals& integrals;
+    Loads loads;
+
+    [[nodiscard]] double apex_height() const { return curve.z.front() - curve.z.back(); }
+};
+
+const std::vector<OwnColumn<ShapeRecord>>& own_columns() {
+    using R = ShapeRecord;
+    static const std::vector<OwnColumn<R>> columns{
+        {"patch_radius_nm", "molecules.patch_radius of the case",
+         [](const R& r) { return r.named.molecules.patch_radius; }},
+        {"spontaneous_curvature_per_nm", "membrane.spontaneous_curvature of the case",
+         [](const R& r) { return r.named.membrane.spontaneous_curvature; }},
+        {"curve_length_nm", "arc length from the axis to the rim", [](const R& r) { return r.curve.s.back(); }},
+        {"apex_height_nm", "height of the membrane on the axis above the rim",
+         [](const R& r) { return r.apex_height(); }},
+        {"tension_at_axis_pN_per_nm", "λ on the axis", [](const R& r) { return r.curve.lambda.front(); }},
+        {"branch_length", "arc length along the branch, in units of the problem's scales",
+         [](const R& r) { return r.point.arc_length; }},
+        {"folds_passed", "folds of the branch before this shape",
+         [](const R& r) { return static_cast<double>(r.point.folds_before); }},
+        {"rim_tension_pN_per_nm", "σ", [](const R& r) { return r.loads.rim_tension; }},
+        {"pressure_difference_pN_per_nm2", "p", [](const R& r) { return r.loads.pressure; }},
+        {"pole_force_pN", "F", [](const R& r) { return r.loads.pole_force; }},
+        {"pole_extension_nm", "z̄ − z(rim): how far the pole force has pulled",
+         [](const R& r) { return r.integrals.extension; }},
+        {"potential_pN_nm", "𝒢 = E + E_c + σ A − p V − F z̄", [](const R& r) { return r.integrals.potential(r.loads); }},
+        {"line_energy_pN_nm", "E_c of the coat's edge, under energetic coupling",
+         [](const R& r) { return r.integrals.edge; }},
+        {"followed_value", "of the key the branch goes along", [](const R& r) { return r.point.solution.parameter; }},
+    };
+    return columns;
+}
+
 /// `named` is the case the user sees, `solved` the one that was computed.
 Json write_state(StateWriter& writer, const Parameters& named, const Parameters& solved, const BranchPoint& point) {
     const GaussRule rule(Resolution{}.points);
     const MembraneCurve curve = sampled_curve(solved, point.solution, rule, curve_points);
     const ShapeIntegrals integrals = shape_integrals(solved, point.solution, rule);
     const Loads loads = loads_of(solved);
-    const double apex_height = curve.z.front() - curve.z.back();
-    Json figures =
-        writer.write(curve, BendingModel(solved.membrane),
-                     {named.molecules.patch_radius, named.membrane.spontaneous_curvature, curve.s.back(), apex_height,
-                      curve.lambda.front(), point.arc_length, static_cast<double>(point.folds_before),
-                      loads.rim_tension, loads.pressure, loads.pole_force, integrals.extension,
-                      integrals.potential(loads), integrals.edge, point.solution.parameter});
-    figures["apex_height_nm"] = apex_height;
+    const ShapeRecord record{named, curve, point, integrals, loads};
+    Json figures = writer.write(curve, BendingModel(solved.membrane), own_values(own_columns(), record));
+    figures["apex_height_nm"] = record.apex_height();
     figures["tension_at_axis_pN_per_nm"] = curve.lambda.front();
     const bool coupled = energetically_coupled(solved.molecules);
     if (coupled) figures["line_energy_pN_nm"] = integrals.edge;
@@ -142,18 +176,12 @@ VesicleFamily parse_family(const std::string& text) {
 }
 
 EngineIdentity identity(const Parameters& parameters) {
-    return {
-        "statics",
-        {{"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}},
-        is_vesicle(parameters)
-            ? vesicle_columns()
-            : std::vector<std::string>{"patch_radius_nm", "spontaneous_curvature_per_nm", "curve_length_nm",
-                                       "apex_height_nm", "tension_at_axis_pN_per_nm", "branch_length", "folds_passed",
-                                       "rim_tension_pN_per_nm", "pressure_difference_pN_per_nm2", "pole_force_pN",
-                                       "pole_extension_nm", "potential_pN_nm", "line_energy_pN_nm", "followed_value"},
-        1,
-        1,
-        RowOrder::along_a_branch};
+    return {"statics",
+            {{"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}},
+            is_vesicle(parameters) ? vesicle_columns() : texts_of(own_columns()),
+            1,
+            1,
+            RowOrder::along_a_branch};
 }
 
 void require_stationary_model(const Parameters& parameters, const Request& request) {

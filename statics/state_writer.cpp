@@ -14,15 +14,7 @@ Json StateWriter::write(const MembraneCurve& curve, const BendingModel& bending,
     HistoryRow row;
     row.time_us = count_;
     row.step_us = count_ == 0 ? 0 : 1;
-    if (seen.neck) {
-        row.neck_radius_nm = seen.neck->radius;
-        row.bud_diameter_nm = seen.neck->lateral_diameter;
-    }
-    row.bud_height_nm = seen.bud_height;
-    row.membrane_area_nm2 = seen.membrane_area;
-    row.bending_energy_pN_nm = seen.bending_energy;
-    row.molecule_mass_nm2 = seen.molecule_mass;
-    row.volume_extracellular_nm3 = seen.extracellular_volume;
+    row.membrane = seen;
     row.extra = std::move(extra);
     output_.record_step(row);
     output_.write_shape(count_, curve);

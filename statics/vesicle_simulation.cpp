@@ -14,18 +14,44 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// What one vesicle says of itself.
+struct VesicleRecord {
+    const VesicleState& state;
+    const MembraneCurve& curve;
+    const BranchPoint& place;  // on a branch
+
+    [[nodiscard]] double reduced_energy() const {
+        return state.bending_energy() / (8 * std::numbers::pi * state.membrane.stiffness);
+    }
+};
+
+const std::vector<OwnColumn<VesicleRecord>>& own_columns() {
+    using R = VesicleRecord;
+    static const std::vector<OwnColumn<R>> columns{
+        {"reduced_volume", "V over that of the sphere of the same area",
+         [](const R& r) { return r.state.membrane.reduced_volume(); }},
+        {"reduced_energy", "E over that of a sphere, 8πβ", [](const R& r) { return r.reduced_energy(); }},
+        {"pressure_pN_per_nm2", "inside minus outside", [](const R& r) { return r.state.pressure(); }},
+        {"tension_pN_per_nm", "λ, the same everywhere", [](const R& r) { return r.state.tension(); }},
+        {"pole_distance_nm", "height of the upper pole above the lower one",
+         [](const R& r) { return r.curve.z.front() - r.curve.z.back(); }},
+        {"branch_length", "arc length along the branch, in units of the problem's scales",
+         [](const R& r) { return r.place.arc_length; }},
+        {"folds_passed", "folds of the branch before this shape",
+         [](const R& r) { return static_cast<double>(r.place.folds_before); }},
+    };
+    return columns;
+}
+
 /// Writes a vesicle of the case; `place` says where on a branch it lies.
 Json write_vesicle(StateWriter& writer, const Parameters& parameters, const VesicleState& state,
                    const BranchPoint& place) {
     const MembraneCurve curve = sampled_curve(state, GaussRule(Resolution{}.points), parameters.domain.membrane_height,
                                               vesicle_case(parameters).concentration, curve_points);
-    const double reduced_energy = state.bending_energy() / (8 * std::numbers::pi * state.membrane.stiffness);
-    Json figures =
-        writer.write(curve, BendingModel(parameters.membrane),
-                     {state.membrane.reduced_volume(), reduced_energy, state.pressure(), state.tension(),
-                      curve.z.front() - curve.z.back(), place.arc_length, static_cast<double>(place.folds_before)});
+    const VesicleRecord record{state, curve, place};
+    Json figures = writer.write(curve, BendingModel(parameters.membrane), own_values(own_columns(), record));
     figures["reduced_volume"] = state.membrane.reduced_volume();
-    figures["reduced_energy"] = reduced_energy;
+    figures["reduced_energy"] = record.reduced_energy();
     figures["pressure_pN_per_nm2"] = state.pressure();
     figures["tension_pN_per_nm"] = state.tension();
     return figures;
@@ -57,9 +83,8 @@ ExitReason write_branch(const Parameters& parameters, const Request::Continuatio
 
 }  // namespace
 
-std::vector<std::string> vesicle_columns() {
-    return {"reduced_volume",   "reduced_energy", "pressure_pN_per_nm2", "tension_pN_per_nm",
-            "pole_distance_nm", "branch_length",  "folds_passed"};
+std::vector<ColumnText> vesicle_columns() {
+    return texts_of(own_columns());
 }
 
 ExitReason simulate_vesicle(const Parameters& parameters, const Request& request, RunOutput& output) {

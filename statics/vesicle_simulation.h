@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "statics/simulation.h"
@@ -12,7 +11,7 @@ namespace endoflow::statics {
 }
 
 /// The statics' own columns of history.csv for a vesicle.
-[[nodiscard]] std::vector<std::string> vesicle_columns();
+[[nodiscard]] std::vector<ColumnText> vesicle_columns();
 
 /// simulate() for a vesicle.
 [[nodiscard]] ExitReason simulate_vesicle(const Parameters& parameters, const Request& request, RunOutput& output);

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "shared/geometry/spheroid.h"
+#include "shared/numerics/root.h"
 #include "shared/support/error.h"
 
 namespace endoflow::statics {
@@ -26,10 +26,8 @@ Spheroid spheroid_of(const ClosedMembrane& membrane, VesicleFamily family) {
         return ClosedMembrane{1, 0, shape.area(), shape.volume()}.reduced_volume() - wanted;
     };
     const double end = family == VesicleFamily::prolate ? 5 : -5;
-    std::uintmax_t evaluations = 60;
-    const auto bracket = boost::math::tools::toms748_solve(excess, std::min(0.0, end), std::max(0.0, end),
-                                                           boost::math::tools::eps_tolerance<double>(40), evaluations);
-    const Spheroid shape{1, std::exp(0.5 * (bracket.first + bracket.second))};
+    constexpr int bits = 40;
+    const Spheroid shape{1, std::exp(root_between(excess, std::min(0.0, end), std::max(0.0, end), bits))};
     const double scale = std::sqrt(membrane.area / shape.area());
     return {scale * shape.equator, scale * shape.polar};
 }

@@ -31,7 +31,7 @@ const std::vector<OwnColumn<StepBalances>>& own_history_columns() {
         {"energy_rate_pN_nm_per_us", "d(E + E_c)/dt along the computed motion",
          [](const B& b) { return b.energy.energy_rate; }},
         {"energy_balance_relative",
-         "\\|dE/dt + ∫ f·u − diffusion\\| / ∫ f·u, with all that changes c in the material, and with the two powers "
+         "|dE/dt + ∫ f·u − diffusion| / ∫ f·u, with all that changes c in the material, and with the two powers "
          "below "
          "added to ∫ f·u",
          [](const B& b) { return b.energy.residual(); }},
@@ -47,13 +47,13 @@ const std::vector<OwnColumn<StepBalances>>& own_history_columns() {
          [](const B& b) { return b.energy.external_power; }},
         {"line_energy_pN_nm", "E_c of the coat's edge, under energetic coupling",
          [](const B& b) { return b.line_energy; }},
-        {"molecule_dissipation_pN_nm_per_us", "∫ M \\|∇μ\\|² of energetic coupling",
+        {"molecule_dissipation_pN_nm_per_us", "∫ M |∇μ|² of energetic coupling",
          [](const B& b) { return b.energy.molecular_dissipation; }},
         {"exchange_power_pN_nm_per_us", "E + E_c that molecules bring when they come and take when they leave",
          [](const B& b) { return b.energy.exchange_power; }},
         {"molecules_exchanged_nm2", "∫∫ j dA dt, coat that has come from outside since t = 0",
          [](const B& b) { return b.exchanged; }},
-        {"molecule_balance_relative", "\\|∫ c dA − its first value − ∫∫ j dA dt\\| over the first value",
+        {"molecule_balance_relative", "|∫ c dA − its first value − ∫∫ j dA dt| over the first value",
          [](const B& b) { return b.molecule_balance; }},
         {"resolution_error_relative", "estimate of the error of neck radius and budding time: elements and time steps",
          [](const B& b) { return b.resolution_error; }},
@@ -66,38 +66,36 @@ HistoryRecorder::HistoryRecorder(const Parameters& parameters, const MembraneDyn
 
 void HistoryRecorder::start(const Evaluation& evaluation) {
     strain_rates_ = strain_.rates(evaluation);
-    molecules_.start(shape_integrals(dynamics_.space(), evaluation.state, parameters_.domain).mass);
+    molecules_.start(molecule_mass(dynamics_.space(), evaluation.samples));
 }
 
 void HistoryRecorder::record(double time, const Evaluation& evaluation, const StiffIntegrator& integrator) {
     const PhaseTimer timer(output_, "observables");
-    const ShapeIntegrals shape = shape_integrals(dynamics_.space(), evaluation.state, parameters_.domain);
-    if (shape.walls) shape.walls->require_clearance(time);
+    const MembraneSpace& space = dynamics_.space();
+    const DomainParameters& domain = parameters_.domain;
+    std::optional<WallDistance> walls;
+    if (domain.kind == DomainKind::box) {
+        walls = wall_distance(space, evaluation.samples, domain);
+        walls->require_clearance(time);
+    }
     check_stiffness(evaluation, dynamics_, parameters_, time);
+    const double line_energy =
+        energetically_coupled(parameters_.molecules) ? dynamics_.line_energy(evaluation.state) : 0.0;
     HistoryRow row;
     row.time_us = time;
     row.step_us = time - last_row_;
-    if (const auto neck = find_neck(dynamics_.space(), evaluation.state)) {
-        row.neck_radius_nm = neck->radius;
-        row.bud_diameter_nm = neck->lateral_diameter;
-    }
-    row.bud_height_nm = shape.height;
-    row.membrane_area_nm2 = shape.area;
-    const double line_energy =
-        energetically_coupled(parameters_.molecules) ? dynamics_.line_energy(evaluation.state) : 0.0;
-    row.bending_energy_pN_nm = 2.0 * std::numbers::pi * evaluation.energy.energy - line_energy;
-    row.molecule_mass_nm2 = shape.mass;
+    row.membrane = {measure_shape(space, evaluation.state, domain), molecule_mass(space, evaluation.samples),
+                    2.0 * std::numbers::pi * evaluation.energy.energy - line_energy};
     MaterialRates strain_rates = strain_.rates(evaluation);
     strain_.advance(strain_rates_, strain_rates, row.step_us);
     strain_rates_ = std::move(strain_rates);
     row.area_strain_max = strain_.largest();
-    row.volume_extracellular_nm3 = shape.extracellular_volume;
     molecules_.advance(last_row_, time, [&](double t) { return dynamics_.exchanged_per_time(integrator.state_at(t)); });
-    row.extra =
-        own_values(own_history_columns(),
-                   {energy_balance(dynamics_, evaluation), balances(dynamics_, evaluation), evaluation.flow.inflow,
-                    shape.walls ? shape.walls->smallest() : 0.0, integrator.last_order(), line_energy,
-                    molecules_.exchanged(), molecules_.residual(shape.mass), resolution_error(evaluation.state)});
+    row.extra = own_values(own_history_columns(),
+                           {energy_balance(dynamics_, evaluation), balances(dynamics_, evaluation),
+                            evaluation.flow.inflow, walls ? walls->smallest() : 0.0, integrator.last_order(),
+                            line_energy, molecules_.exchanged(), molecules_.residual(row.membrane.molecule_mass),
+                            resolution_error(evaluation.state)});
     output_.record_step(row);
     last_row_ = time;
 }

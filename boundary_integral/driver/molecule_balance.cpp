@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "boundary_integral/quadrature/gauss_legendre.h"
+#include "shared/numerics/gauss_legendre.h"
 
 namespace endoflow::boundary_integral {
 

@@ -1,9 +1,6 @@
 #include "boundary_integral/driver/output_series.h"
 
-#include <algorithm>
-
 #include "boundary_integral/fields/field_grid.h"
-#include "shared/output/output_times.h"
 
 namespace endoflow::boundary_integral {
 
@@ -16,14 +13,6 @@ FieldIndex field_index(const RunOutput& output, std::optional<double> goes_on_fr
     return goes_on_from ? FieldIndex(directory, *goes_on_from) : FieldIndex(directory);
 }
 
-bool later(double time, double than) {
-    return time > than * (1.0 + same_time);
-}
-
-Eigen::VectorXd state_at(double time, const StiffIntegrator& integrator) {
-    return time < integrator.time() ? integrator.state_at(time) : integrator.state();
-}
-
 }  // namespace
 
 OutputSeries::OutputSeries(const Parameters& parameters, const MembraneDynamics& dynamics, const FlowInterpolant& flow,
@@ -32,7 +21,7 @@ OutputSeries::OutputSeries(const Parameters& parameters, const MembraneDynamics&
       dynamics_(dynamics),
       flow_(flow),
       output_(output),
-      start_(goes_on_from.value_or(0.0)),
+      plan_(parameters.output, goes_on_from.value_or(0.0)),
       sampler_(dynamics.space(), shape_points_per_element * dynamics.space().elements()),
       fields_(field_index(output, goes_on_from)) {}
 
@@ -49,31 +38,26 @@ void OutputSeries::write_initial(const Evaluation& evaluation) {
 }
 
 void OutputSeries::write_until(double end, const StiffIntegrator& integrator) {
-    for (double time = next_shape(); !later(time, end); time = next_shape())
-        write_shape(time, dynamics_.unpack(state_at(time, integrator)), flow_.at(time));
+    plan_.shapes_until(end, [&](double time) { write_shape(time, integrator); });
     if (!writes_fields()) return;
-    for (double time = next_field_time(); !later(time, end); time = next_field_time())
-        write_fields(time, dynamics_.unpack(state_at(time, integrator)), flow_.at(time),
+    plan_.fields_until(end, [&](double time) {
+        write_fields(time, dynamics_.unpack(integrator.state_at(time)), flow_.at(time),
                      flow_.wall_unknowns(time, *dynamics_.box()));
+    });
 }
 
 void OutputSeries::write_shape_at(double time, const StiffIntegrator& integrator) {
     write_until(time, integrator);
-    if (later(time, last_shape_)) write_shape(time, dynamics_.unpack(state_at(time, integrator)), flow_.at(time));
+    plan_.shape_at(time, [&](double at) { write_shape(at, integrator); });
 }
 
-double OutputSeries::next_shape() const {
-    return next_shape_time(parameters_.output.shape_interval, std::max(start_, last_shape_));
-}
-
-double OutputSeries::next_field_time() const {
-    return next_multiple(parameters_.output.field_interval, std::max(start_, fields_.latest().value_or(0.0)));
+void OutputSeries::write_shape(double time, const StiffIntegrator& integrator) {
+    write_shape(time, dynamics_.unpack(integrator.state_at(time)), flow_.at(time));
 }
 
 void OutputSeries::write_shape(double time, const MembraneState& state, const FlowSolution& flow) {
     const PhaseTimer timer(output_, "shapes");
     output_.write_shape(time, sampler_(state, flow));
-    last_shape_ = time;
 }
 
 void OutputSeries::write_fields(double time, const MembraneState& state, const FlowSolution& flow,

@@ -7,12 +7,12 @@
 #include "boundary_integral/evolution/observation.h"
 #include "boundary_integral/integration/stiff_integrator.h"
 #include "shared/output/field_index.h"
+#include "shared/output/output_plan.h"
 #include "shared/output/run_output.h"
 
 namespace endoflow::boundary_integral {
 
-/// shapes.h5 at the times of next_shape_time(), at events and at the end; fields/ at multiples of
-/// output.field_interval. After a restart the multiples before its beginning are past, whatever the intervals were.
+/// shapes.h5 and fields/ when OutputPlan says so.
 class OutputSeries {
   public:
     /// `flow`: between the steps that are written; `goes_on_from`: the time [µs] up to which there are outputs already.
@@ -28,22 +28,17 @@ class OutputSeries {
     /// The same, and the shape at this very time: of an event, of the end.
     void write_shape_at(double time, const StiffIntegrator& integrator);
 
-    void save(Checkpoint& checkpoint) const { checkpoint.scalars["last_shape"] = last_shape_; }
-    void restore(const Checkpoint& checkpoint) { last_shape_ = checkpoint.scalar("last_shape"); }
-
   private:
     const Parameters& parameters_;
     const MembraneDynamics& dynamics_;
     const FlowInterpolant& flow_;
     RunOutput& output_;
-    double start_;  // µs, of this part of the run
+    OutputPlan plan_;
     CurveSampler sampler_;
     FieldIndex fields_;
-    double last_shape_ = -1.0;  // µs; negative before the first one
 
     [[nodiscard]] bool writes_fields() const;
-    [[nodiscard]] double next_shape() const;
-    [[nodiscard]] double next_field_time() const;
+    void write_shape(double time, const StiffIntegrator& integrator);
     void write_shape(double time, const MembraneState& state, const FlowSolution& flow);
     void write_fields(double time, const MembraneState& state, const FlowSolution& flow,
                       const Eigen::VectorXd& wall_unknowns);

@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "boundary_integral/driver/event_recorder.h"
 #include "boundary_integral/driver/history_recorder.h"
 #include "boundary_integral/driver/integrator_checkpoint.h"
-#include "boundary_integral/driver/neck_events.h"
 #include "boundary_integral/driver/output_series.h"
 #include "boundary_integral/evolution/refinement.h"
 #include "shared/case/resolution.h"
@@ -115,7 +115,7 @@ class RunLoop {
     MembraneDynamics dynamics_;
     FlowInterpolant flow_;
     HistoryRecorder history_;
-    NeckEvents events_;
+    EventRecorder events_;
     OutputSeries series_;
     std::vector<double> refinements_, elements_;          // since when [µs] there are how many, the beginning first
     std::shared_ptr<const MobilityOperators> operators_;  // of the step's predicted shape
@@ -138,7 +138,6 @@ class RunLoop {
         checkpoint.arrays["refinement_elements"] = elements_;
         history_.save(checkpoint);
         events_.save(checkpoint);
-        series_.save(checkpoint);
         return checkpoint;
     }
 
@@ -165,7 +164,6 @@ class RunLoop {
         if (from_) {
             history_.restore(*from_);
             events_.restore(*from_);
-            series_.restore(*from_);
             refinements_ = from_->array("refinement_times");
             elements_ = from_->array("refinement_elements");
             return restored_start(*from_, dynamics_.size(), output_.directory().string());

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "boundary_integral/quadrature/gauss_legendre.h"
+#include "shared/numerics/gauss_legendre.h"
 
 namespace endoflow::boundary_integral {
 
@@ -47,6 +47,35 @@ double height(const MembraneSpace& space, const MembraneSamples& samples, const 
     return highest - (space.end() == CurveEnd::closed ? lowest : domain.membrane_height);
 }
 
+}  // namespace
+
+std::optional<Neck> find_neck(const MembraneSpace& space, const MembraneState& state) {
+    return find_neck(SplineMeridian(space, state));
+}
+
+ShapeMeasures measure_shape(const MembraneSpace& space, const MembraneState& state, const DomainParameters& domain) {
+    const MembraneSamples samples = sample(space, state);
+    ShapeMeasures result;
+    result.neck = find_neck(space, state);
+    result.bud_height = height(space, samples, state, domain);
+    for (std::size_t i = 0; i < space.xi.size(); ++i) {
+        const CurvePoint& p = samples.curve[i];
+        const double ring = two_pi * space.weight[i] * p.r;
+        result.membrane_area += ring * p.g;
+        result.extracellular_volume += ring * p.r1 * (p.z - domain.membrane_height);
+    }
+    return result;
+}
+
+double molecule_mass(const MembraneSpace& space, const MembraneSamples& samples) {
+    double mass = 0.0;
+    for (std::size_t i = 0; i < space.xi.size(); ++i) {
+        const CurvePoint& p = samples.curve[i];
+        mass += two_pi * space.weight[i] * p.r * p.g * samples.c[i];
+    }
+    return mass;
+}
+
 WallDistance wall_distance(const MembraneSpace& space, const MembraneSamples& samples, const DomainParameters& domain) {
     double to_rim = 0.0;
     for (std::size_t i = 0; i < space.xi.size(); ++i) to_rim += space.weight[i] * samples.curve[i].g;
@@ -57,27 +86,6 @@ WallDistance wall_distance(const MembraneSpace& space, const MembraneSamples& sa
         walls.look_at(p.r, p.z, to_rim);
     }
     return walls;
-}
-
-}  // namespace
-
-std::optional<Neck> find_neck(const MembraneSpace& space, const MembraneState& state) {
-    return find_neck(SplineMeridian(space, state));
-}
-
-ShapeIntegrals shape_integrals(const MembraneSpace& space, const MembraneState& state, const DomainParameters& domain) {
-    ShapeIntegrals result;
-    const MembraneSamples samples = sample(space, state);
-    for (std::size_t i = 0; i < space.xi.size(); ++i) {
-        const CurvePoint& p = samples.curve[i];
-        const double ring = two_pi * space.weight[i] * p.r;
-        result.area += ring * p.g;
-        result.mass += ring * p.g * samples.c[i];
-        result.extracellular_volume += ring * p.r1 * (p.z - domain.membrane_height);
-    }
-    result.height = height(space, samples, state, domain);
-    if (domain.kind == DomainKind::box) result.walls = wall_distance(space, samples, domain);
-    return result;
 }
 
 double EnergyBalance::residual() const {

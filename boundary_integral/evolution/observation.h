@@ -7,7 +7,7 @@
 
 #include "boundary_integral/evolution/membrane_dynamics.h"
 #include "shared/geometry/membrane_curve.h"
-#include "shared/geometry/meridian.h"
+#include "shared/geometry/observables.h"
 #include "shared/geometry/wall_distance.h"
 
 namespace endoflow::boundary_integral {
@@ -15,14 +15,14 @@ namespace endoflow::boundary_integral {
 /// The neck of the spline curve; its t is ξ.
 [[nodiscard]] std::optional<Neck> find_neck(const MembraneSpace& space, const MembraneState& state);
 
-struct ShapeIntegrals {
-    double area = 0.0;                  // nm^2
-    double mass = 0.0;                  // int c dA, nm^2
-    double extracellular_volume = 0.0;  // int (z - z_rim) 2 pi r dr: inside a closed surface all of it, nm^3
-    double height = 0.0;  // largest z - z_rim; of a closed surface: between its highest and lowest point, nm
-    std::optional<WallDistance> walls;  // of a box
-};
-ShapeIntegrals shape_integrals(const MembraneSpace& space, const MembraneState& state, const DomainParameters& domain);
+/// What observables.h defines, of the spline curve itself: exact integrals and extrema over the Gauss points.
+[[nodiscard]] ShapeMeasures measure_shape(const MembraneSpace& space, const MembraneState& state,
+                                          const DomainParameters& domain);
+/// ∫ c dA, nm².
+[[nodiscard]] double molecule_mass(const MembraneSpace& space, const MembraneSamples& samples);
+/// Of the Gauss points.
+[[nodiscard]] WallDistance wall_distance(const MembraneSpace& space, const MembraneSamples& samples,
+                                         const DomainParameters& domain);
 
 // Energy balance of a state: rate of E along the computed motion against the power given to the fluid, the energy that
 // inflowing membrane brings along and the energy that diffusion of the molecules brings.

@@ -6,7 +6,7 @@
 
 #include "boundary_integral/fields/ring_layers.h"
 #include "boundary_integral/membrane/membrane_space.h"
-#include "boundary_integral/quadrature/gauss_legendre.h"
+#include "shared/numerics/gauss_legendre.h"
 
 namespace endoflow::boundary_integral {
 

@@ -153,7 +153,7 @@ Eigen::VectorXd StiffIntegrator::derivative(double time, int order) const {
 }
 
 Eigen::VectorXd StiffIntegrator::state_at(double time) const {
-    return derivative(time, 0);
+    return time < time_ ? derivative(time, 0) : state();
 }
 
 }  // namespace endoflow::boundary_integral

@@ -51,7 +51,7 @@ class StiffIntegrator {
     [[nodiscard]] double last_step() const { return last_step_; }
     [[nodiscard]] int last_order() const { return last_order_; }
 
-    /// Interpolated inside the last step, to the integrator's order.
+    /// Interpolated inside the last step, to the integrator's order; at its end state().
     [[nodiscard]] Eigen::VectorXd state_at(double time) const;
 
     struct Statistics {
@@ -88,11 +88,5 @@ class StiffIntegrator {
     int rate(double time, N_Vector y, N_Vector rate);
     int jacobian(N_Vector y, SUNMatrix matrix);
 };
-
-/// The time inside the integrator's last step when `quantity` falls below `level`; nothing when it does not. The
-/// quantity may be infinite above it.
-[[nodiscard]] std::optional<double> falls_below(const StiffIntegrator& integrator,
-                                                const std::function<double(const Eigen::VectorXd&)>& quantity,
-                                                double level);
 
 }  // namespace endoflow::boundary_integral

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "boundary_integral/membrane/energy.h"
-#include "boundary_integral/quadrature/gauss_legendre.h"
+#include "shared/numerics/gauss_legendre.h"
 
 namespace endoflow::boundary_integral {
 

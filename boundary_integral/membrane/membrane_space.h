@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "boundary_integral/quadrature/gauss_legendre.h"
 #include "boundary_integral/splines/spline_space.h"
+#include "shared/numerics/gauss_legendre.h"
 
 namespace endoflow::boundary_integral {
 

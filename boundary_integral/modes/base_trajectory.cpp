@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -10,6 +9,7 @@
 #include "boundary_integral/integration/stiff_integrator.h"
 #include "shared/geometry/observables.h"
 #include "shared/model/time_scale.h"
+#include "shared/numerics/level_crossing.h"
 
 namespace endoflow::boundary_integral {
 
@@ -35,9 +35,8 @@ BaseTrajectory::BaseTrajectory(const MembraneDynamics& dynamics, const Parameter
     operators = dynamics.operators(request.start);
     StiffIntegrator integrator(problem, {0.0, first_step(parameters), request.start},
                                {longest_step(parameters), smallest_step});
-    const auto neck_radius = [&](const Eigen::VectorXd& y) {
-        const auto neck = find_neck(dynamics.space(), dynamics.unpack(y));
-        return neck ? neck->radius : std::numeric_limits<double>::infinity();
+    const auto radius_at = [&](double time) {
+        return neck_radius(find_neck(dynamics.space(), dynamics.unpack(integrator.state_at(time))));
     };
     while (integrator.time() < end_) {
         integrator.advance(end_);
@@ -49,7 +48,8 @@ BaseTrajectory::BaseTrajectory(const MembraneDynamics& dynamics, const Parameter
             step.states.col(i) = integrator.state_at(step.times.back());
         }
         steps_.push_back(std::move(step));
-        if (!budding_) budding_ = falls_below(integrator, neck_radius, budding_neck_radius);
+        const double end = integrator.time();
+        if (!budding_) budding_ = falls_below(radius_at, end - integrator.last_step(), end, budding_neck_radius);
     }
 }
 

@@ -6,10 +6,7 @@
 #include <string>
 
 #include "shared/case/case_file.h"
-#include "shared/output/atomic_file.h"
 #include "shared/output/hdf5_file.h"
-#include "shared/output/restart_point.h"
-#include "shared/output/run_directory.h"
 #include "shared/output/run_record.h"
 #include "shared/support/error.h"
 
@@ -55,7 +52,7 @@ std::string group(std::size_t index) {
 RecordedRun::RecordedRun(const std::filesystem::path& directory) {
     const RunDirectory run{directory};
     const std::string source = run.record().string();
-    const RunRecord record = parse_record(read_file(run.record(), largest_record), source);
+    const RunRecord record = read_record(run);
     if (record.at("engine") != "boundary-integral") {
         throw IoError(source + ": modes are those of a run of the boundary-integral engine");
     }

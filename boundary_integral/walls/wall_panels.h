@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "boundary_integral/operators/layer_block.h"
-#include "boundary_integral/quadrature/gauss_legendre.h"
+#include "shared/numerics/gauss_legendre.h"
 #include "shared/parameters/parameters.h"
 
 namespace endoflow::boundary_integral {

@@ -89,7 +89,7 @@ def budding_time(record, end):
 def final_values(path, end):
     """{column of FINAL: number or None} from the last row of a history.csv (Path, or None), or at `end` (µs) if earlier."""
     try:
-        history = None if path is None else read_history(path)
+        history = None if path is None else read_history(path, ("time_us", *FINAL.values()))
     except EndoflowError:
         history = None
     if history is None:

@@ -10,7 +10,7 @@ const std::vector<OwnColumn<StepRecord>>& own_history_columns() {
         {"mobility_dissipation_pN_nm_per_us", "∫ γ g², of (21)",
          [](const R& r) { return r.diagnostics.mobility_dissipation; }},
         {"tension_power_pN_nm_per_us",
-         "scheme `production`: ∫ δ_Γ λ P:∇u − δ p_Γ ∇·u; scheme `paper`: ∫ λ \\|∇φ\\| P:∇u; 0 if the membrane "
+         "scheme `production`: ∫ δ_Γ λ P:∇u − δ p_Γ ∇·u; scheme `paper`: ∫ λ |∇φ| P:∇u; 0 if the membrane "
          "stretches nowhere",
          [](const R& r) { return r.diagnostics.tension_power; }},
         {"transport_power_pN_nm_per_us",
@@ -22,13 +22,13 @@ const std::vector<OwnColumn<StepRecord>>& own_history_columns() {
          "trapezoidal rule; under energetic coupling the molecules' dissipation and exchange power stand for transport",
          [](const R& r) { return r.energy_law_residual; }},
         {"thickness_error_max",
-         "largest relative error of the layer's thickness along the membrane, \\|√2 ε\\|∇φ\\|/(1 − φ²) − 1\\| on "
-         "\\|φ\\| < 0.5 (69 % of the membrane's weight)",
+         "largest relative error of the layer's thickness along the membrane, |√2 ε|∇φ|/(1 − φ²) − 1| on "
+         "|φ| < 0.5 (69 % of the membrane's weight)",
          [](const R& r) { return r.diagnostics.thickness_error_max; }},
         {"profile_error_max",
-         "the same on \\|φ\\| < 0.9, where the layers of bud and plane meet outside of a narrow neck",
+         "the same on |φ| < 0.9, where the layers of bud and plane meet outside of a narrow neck",
          [](const R& r) { return r.diagnostics.profile_error_max; }},
-        {"motion_max_nm", "motion in the step on \\|φ\\| < 0.9", [](const R& r) { return r.diagnostics.motion_max; }},
+        {"motion_max_nm", "motion in the step on |φ| < 0.9", [](const R& r) { return r.diagnostics.motion_max; }},
         {"net_vertical_force_pN", "of the membrane and its loads on the fluid, which the pinned rim takes up",
          [](const R& r) { return r.diagnostics.net_vertical_force; }},
         {"extracellular_inflow_nm3_per_us", "−∮ ½(1 + φ) u·n_w, the rate at which `volume_extracellular_nm3` must grow",
@@ -42,33 +42,27 @@ const std::vector<OwnColumn<StepRecord>>& own_history_columns() {
          [](const R& r) { return r.diagnostics.load_power; }},
         {"line_energy_pN_nm", "E_c of the coat's edge, under energetic coupling",
          [](const R& r) { return r.diagnostics.line_energy; }},
-        {"molecule_dissipation_pN_nm_per_us", "∫ M \\|∇μ\\|² of energetic coupling",
+        {"molecule_dissipation_pN_nm_per_us", "∫ M |∇μ|² of energetic coupling",
          [](const R& r) { return r.diagnostics.molecule_dissipation; }},
         {"exchange_power_pN_nm_per_us", "E + E_c that molecules bring when they come and take when they leave",
          [](const R& r) { return r.diagnostics.exchange_power; }},
         {"molecules_exchanged_nm2", "∫∫ j dA dt, coat that has come from outside since t = 0",
          [](const R& r) { return r.molecules.exchanged(); }},
-        {"molecule_balance_relative", "\\|∫ c dA − its first value − ∫∫ j dA dt\\| over the first value",
+        {"molecule_balance_relative", "|∫ c dA − its first value − ∫∫ j dA dt| over the first value",
          [](const R& r) { return r.molecules.residual(r.integrals.molecules); }},
     };
     return columns;
 }
 
-HistoryRow make_history_row(const StepRecord& r) {
+HistoryRow make_history_row(const StepRecord& record) {
     HistoryRow row;
-    row.time_us = r.time;
-    row.step_us = r.tau;
-    if (r.observables.neck) {
-        row.neck_radius_nm = r.observables.neck->radius;
-        row.bud_diameter_nm = r.observables.neck->lateral_diameter;
-    }
-    row.bud_height_nm = r.observables.bud_height;
-    row.membrane_area_nm2 = r.observables.membrane_area;
-    row.bending_energy_pN_nm = r.diagnostics.bending_energy;
-    row.molecule_mass_nm2 = r.integrals.molecules;
-    row.area_strain_max = r.diagnostics.area_strain_max;
-    row.volume_extracellular_nm3 = r.observables.extracellular_volume;
-    row.extra = own_values(own_history_columns(), r);
+    row.time_us = record.time;
+    row.step_us = record.tau;
+    row.membrane = record.observables;
+    row.membrane.bending_energy = record.diagnostics.bending_energy;
+    row.membrane.molecule_mass = record.integrals.molecules;
+    row.area_strain_max = record.diagnostics.area_strain_max;
+    row.extra = own_values(own_history_columns(), record);
     return row;
 }
 

@@ -4,7 +4,6 @@
 
 #include "phasefield/driver/molecule_balance.h"
 #include "phasefield/schemes/interface/diagnostics.h"
-#include "shared/geometry/observables.h"
 #include "shared/output/history_columns.h"
 
 namespace endoflow::phasefield {
@@ -20,9 +19,9 @@ struct StepRecord {
     double unknowns, cells;
 };
 
-/// The engine's own columns of history.csv, with their values.
-const std::vector<OwnColumn<StepRecord>>& own_history_columns();
+/// The engine's own columns of history.csv.
+[[nodiscard]] const std::vector<OwnColumn<StepRecord>>& own_history_columns();
 
-HistoryRow make_history_row(const StepRecord& record);
+[[nodiscard]] HistoryRow make_history_row(const StepRecord& record);
 
 }  // namespace endoflow::phasefield

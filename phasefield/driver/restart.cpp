@@ -29,8 +29,8 @@ void TimeLoop::checkpoint() {
     checkpoint.scalars = {{"energy", last_energy_},
                           {"energy_loss_rate", last_loss_},
                           {"checkpoints_written", checkpoints_written_},
-                          {"neck_radius", neck_radius_.value_or(-1)},
-                          {"budding_time", budding_time_.value_or(-1)}};
+                          {"neck_radius", neck_radius_},
+                          {"budded", events_.budded() ? 1 : 0}};
     checkpoint.arrays["field_times"] = field_times_;
     molecules_.save(checkpoint);
     const auto directory = output_.directory() / "checkpoint" / slot;
@@ -45,24 +45,20 @@ void TimeLoop::checkpoint() {
 }
 
 void TimeLoop::restart(const Checkpoint& checkpoint) {
-    const auto optional = [&](const char* name) {
-        const double value = checkpoint.scalar(name);
-        return value < 0 ? std::nullopt : std::optional(value);
-    };
     time_ = checkpoint.time_us;
-    last_shape_ = time_;
-    plan_output(time_);
     last_energy_ = checkpoint.scalar("energy");
     last_loss_ = checkpoint.scalar("energy_loss_rate");
     checkpoints_written_ = checkpoint.scalar("checkpoints_written");
-    neck_radius_ = optional("neck_radius");
-    budding_time_ = optional("budding_time");
+    neck_radius_ = checkpoint.scalar("neck_radius");
+    events_.restore(checkpoint.scalar("budded") != 0);
     field_times_ = checkpoint.array("field_times");
     molecules_.load(checkpoint);
     const auto directory = output_.directory() / "checkpoint" / checkpoint.text("mesh");
     require_files(directory, checkpoint.text("mesh_files"));
     contour_ = scheme_->load(directory, checkpoint).contour;
     observables_ = measure(contour_.curve, model_);
+    if (events_.budded() && parameters_.output.stop_at_budding) event_end_ = ExitReason::budded;
+    if (contour_.components > 1) event_end_ = ExitReason::neck_closed;
 }
 
 }  // namespace endoflow::phasefield

@@ -9,14 +9,18 @@
 #include "phasefield/driver/history.h"
 #include "phasefield/fem/interruption.h"
 #include "shared/model/membrane_energy.h"
-#include "shared/output/output_times.h"
 #include "shared/support/error.h"
 
 namespace endoflow::phasefield {
 
 namespace {
 
-constexpr int event_iterations = 4;  // of regula falsi within a step
+/// The diffuse engine follows a neck until the membrane comes apart there.
+constexpr double closed_radius = 0;
+
+double start_of(const RunOutput& output) {
+    return output.restart_point() ? output.restart_point()->time_us : 0;
+}
 
 }  // namespace
 
@@ -26,7 +30,9 @@ TimeLoop::TimeLoop(const Parameters& parameters, RunOutput& output, MPI_Comm com
       output_(output),
       communicator_(communicator),
       scheme_(std::move(scheme)),
-      model_(parameters.membrane) {
+      model_(parameters.membrane),
+      plan_(parameters.output, start_of(output)),
+      events_(parameters.output, closed_radius) {
     if (output.restart_point())
         restart(*output.restart_point());
     else
@@ -41,7 +47,7 @@ void TimeLoop::start_fresh() {
     record(0, outcome.diagnostics);
     output_.write_shape(0, contour_.curve);
     if (parameters_.output.field_interval > 0) write_fields(0);
-    plan_output(0);
+    neck_radius_ = neck_radius_at(0);
 }
 
 ExitReason TimeLoop::run() {
@@ -51,7 +57,7 @@ ExitReason TimeLoop::run() {
     } catch (const Interrupted&) {
         output_.log_info("the step after t = " + std::to_string(time_) + " µs was given up");
     }
-    if (reason != ExitReason::interrupted) write_shape(time_, contour_.curve);
+    if (reason != ExitReason::interrupted) plan_.shape_at(time_, [this](double time) { write_shape(time); });
     checkpoint();
     return reason;
 }
@@ -70,9 +76,7 @@ ExitReason TimeLoop::step_to_an_end() {
 std::optional<ExitReason> TimeLoop::reason_to_stop() {
     if (time_ >= parameters_.time.end * (1 - same_time)) return ExitReason::done;
     if (interrupted(communicator_)) return ExitReason::interrupted;
-    if (budding_time_ && parameters_.output.stop_at_budding) return ExitReason::budded;
-    if (contour_.components > 1) return ExitReason::neck_closed;
-    return {};
+    return event_end_;
 }
 
 void TimeLoop::step() {
@@ -131,67 +135,49 @@ void TimeLoop::record(double tau, const StepDiagnostics& diagnostics) {
                                           molecules_, scheme_->unknowns(), scheme_->cells()}));
 }
 
-void TimeLoop::watch_neck(double tau) {
-    const auto before = neck_radius_;
-    neck_radius_ = observables_.neck ? std::optional(observables_.neck->radius) : std::nullopt;
-    if (budding_time_ || !neck_radius_ || *neck_radius_ >= budding_neck_radius) return;
-    Observables at_event = observables_;
-    budding_time_ = before ? time_of_budding(*before, tau, at_event) : time_;
-    output_.record_event("budding", *budding_time_,
-                         {{"neck_radius_nm", at_event.neck->radius},
-                          {"bud_diameter_nm", at_event.neck->lateral_diameter},
-                          {"membrane_area_nm2", at_event.membrane_area},
-                          {"bud_height_nm", at_event.bud_height}});
-    write_shapes_before(*budding_time_);
-    write_shape(*budding_time_, scheme_->contour_at(*budding_time_).curve);
+double TimeLoop::neck_radius_at(double time) const {
+    const Contour& contour = time >= time_ ? contour_ : scheme_->contour_at(time);
+    return contour.components > 1 ? 0 : neck_radius(measure(contour.curve, model_).neck);
 }
 
-double TimeLoop::time_of_budding(double before, double tau, Observables& at_event) const {
-    double low = time_ - tau, above = before, high = time_, below = *neck_radius_;
-    const auto crossing = [&] { return low + (high - low) * (above - budding_neck_radius) / (above - below); };
-    for (int k = 0; k < event_iterations; ++k) {
-        const double time = crossing();
-        const Observables middle = measure(scheme_->contour_at(time).curve, model_);
-        if (!middle.neck) break;
-        at_event = middle;
-        const double radius = middle.neck->radius;
-        (radius < budding_neck_radius ? high : low) = time;
-        (radius < budding_neck_radius ? below : above) = radius;
+void TimeLoop::watch_neck(double tau) {
+    const double begin = time_ - tau, before = neck_radius_, now = neck_radius_at(time_);
+    const auto radius = [&](double time) {
+        if (time <= begin) return before;
+        return time >= time_ ? now : neck_radius_at(time);
+    };
+    for (const NeckEvent& event : events_.within(begin, time_, radius)) {
+        record(event);
+        if (event.ends_run) event_end_ = event.ends_run;
     }
-    return crossing();
+    neck_radius_ = now;
+}
+
+void TimeLoop::record(const NeckEvent& event) {
+    output_.record_event(event.name, event.time, measure(curve_at(event.time), model_));
+    plan_.shape_at(event.time, [this](double time) { write_shape(time); });
 }
 
 void TimeLoop::check_clearance() const {
     require_clearance(contour_.curve, parameters_, time_);
 }
 
-void TimeLoop::plan_output(double time) {
-    next_shape_ = next_shape_time(parameters_.output.shape_interval, time);
-    next_fields_ = next_multiple(parameters_.output.field_interval, time);
+MembraneCurve TimeLoop::curve_at(double time) const {
+    return time >= time_ * (1 - same_time) ? contour_.curve : scheme_->contour_at(time).curve;
 }
 
-void TimeLoop::write_shapes_before(double time) {
-    for (; next_shape_ < time * (1 - same_time);
-         next_shape_ = next_shape_time(parameters_.output.shape_interval, next_shape_))
-        write_shape(next_shape_, scheme_->contour_at(next_shape_).curve);
-}
-
-void TimeLoop::write_shape(double time, const MembraneCurve& curve) {
-    if (time > 0 && time <= last_shape_ * (1 + same_time)) return;
-    output_.write_shape(time, curve);
-    last_shape_ = time;
+void TimeLoop::write_shape(double time) {
+    output_.write_shape(time, curve_at(time));
 }
 
 void TimeLoop::write_due_output() {
-    const auto now = [this](double time) { return std::abs(time - time_) <= same_time * time_; };
-    write_shapes_before(time_);
-    for (; next_fields_ < time_ && !now(next_fields_);
-         next_fields_ = next_multiple(parameters_.output.field_interval, next_fields_))
-        write_fields(next_fields_);
-    const bool end = time_ >= parameters_.time.end * (1 - same_time);
-    if (end || now(next_shape_)) write_shape(time_, contour_.curve);
-    if ((end && parameters_.output.field_interval > 0) || now(next_fields_)) write_fields(time_);
-    plan_output(time_);
+    const auto shape = [this](double time) { write_shape(time); };
+    const auto fields = [this](double time) { write_fields(std::min(time, time_)); };
+    plan_.shapes_until(time_, shape);
+    plan_.fields_until(time_, fields);
+    if (time_ < parameters_.time.end * (1 - same_time)) return;
+    plan_.shape_at(time_, shape);
+    if (parameters_.output.field_interval > 0) plan_.fields_at(time_, fields);
 }
 
 void TimeLoop::write_fields(double time) {

@@ -6,6 +6,8 @@
 #include "phasefield/driver/molecule_balance.h"
 #include "phasefield/schemes/interface/scheme.h"
 #include "shared/geometry/observables.h"
+#include "shared/output/neck_events.h"
+#include "shared/output/output_plan.h"
 #include "shared/output/run_output.h"
 
 namespace endoflow::phasefield {
@@ -29,16 +31,14 @@ class TimeLoop {
     void follow();
     void record(double tau, const StepDiagnostics& diagnostics);
     void watch_neck(double tau);
-    /// When the neck passed budding_neck_radius within the last step, and the observables then.
-    double time_of_budding(double before, double tau, Observables& at_event) const;
+    void record(const NeckEvent& event);
+    /// At a time within the last step [nm]; 0 where the membrane has come apart, infinite without a neck.
+    [[nodiscard]] double neck_radius_at(double time) const;
     void check_clearance() const;
     void write_due_output();
-    /// Shapes that are due before a time within the last step.
-    void write_shapes_before(double time);
-    /// Unless there is one of this time already.
-    void write_shape(double time, const MembraneCurve& curve);
-    /// The next shapes and fields are the first multiples of their intervals after `time`.
-    void plan_output(double time);
+    /// The membrane at a time within the last step.
+    [[nodiscard]] MembraneCurve curve_at(double time) const;
+    void write_shape(double time);
     void write_fields(double time);
     void checkpoint();
     [[nodiscard]] bool anywhere(bool here) const;
@@ -53,10 +53,12 @@ class TimeLoop {
     Observables observables_{};
     double time_ = 0, last_energy_ = 0, last_loss_ = 0;  // E + E_c and what it loses per time
     MoleculeBalance molecules_;
-    double last_shape_ = 0, next_shape_ = 0, next_fields_ = 0;  // when they are due [µs]
+    OutputPlan plan_;
     double checkpoints_written_ = 0;
     std::vector<double> field_times_;
-    std::optional<double> neck_radius_, budding_time_;
+    NeckEvents events_;
+    double neck_radius_ = 0;               // at the end of the last step, nm
+    std::optional<ExitReason> event_end_;  // of an event that ends the run
 };
 
 }  // namespace endoflow::phasefield

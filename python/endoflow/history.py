@@ -3,27 +3,13 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
 
 from .arrays import Array
 from .errors import RERUN, RunDirectoryError
-
-#: Columns every history must have; engines may add more.
-REQUIRED_COLUMNS = (
-    "time_us",
-    "step_us",
-    "neck_radius_nm",
-    "bud_diameter_nm",
-    "bud_height_nm",
-    "membrane_area_nm2",
-    "bending_energy_pN_nm",
-    "molecule_mass_nm2",
-    "area_strain_max",
-    "volume_extracellular_nm3",
-    "wall_s",
-)
 
 #: Words at the end of a column's name that spell its unit; `per` starts the denominator.
 UNIT_WORDS = {"nm": "nm", "nm2": "nm²", "nm3": "nm³", "us": "µs", "s": "s", "pN": "pN"}
@@ -45,8 +31,8 @@ def name_and_unit(column: str) -> tuple[str, str]:
     return " ".join(words[:start]), f"{above or '1'}/{below}" if below else above or "1"
 
 
-def read_history(path: Path) -> dict[str, Array]:
-    """Read a history.csv into {column name: float array (rows,)}; empty cells become nan.
+def read_history(path: Path, columns: Iterable[str] = ("time_us",)) -> dict[str, Array]:
+    """Read a history.csv into {column name: float array (rows,)}; empty cells become nan. `columns`: those it must have.
 
     Raises RunDirectoryError when the file is missing, lacks a column, has a malformed row, or when time runs backwards.
     """
@@ -60,7 +46,7 @@ def read_history(path: Path) -> dict[str, Array]:
     if len(rows) < 2:
         raise RunDirectoryError(path, "holds no time step", RERUN)
     header = [name.strip() for name in rows[0]]
-    missing = [name for name in REQUIRED_COLUMNS if name not in header]
+    missing = [name for name in columns if name not in header]
     if missing:
         raise RunDirectoryError(
             path, f"lacks the column(s) {', '.join(missing)}", "is this a directory of `endoflow run`?"

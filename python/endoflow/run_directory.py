@@ -42,6 +42,11 @@ class Run:
         return str(self.record["engine"])
 
     @property
+    def columns(self) -> dict[str, str]:
+        """{column of the history: what it is} in the words of run.json; empty where it does not say."""
+        return dict(self.record.get("columns", {}))
+
+    @property
     def history_units(self) -> dict[str, str]:
         """{column: unit}, read off the column names."""
         return {column: unit_of(column) for column in self.history}
@@ -122,7 +127,7 @@ def load(directory: Union[str, Path]) -> Run:
         directory=directory,
         record=record,
         parameters=record["parameters"],
-        history=read_history(directory / "history.csv"),
+        history=read_history(directory / "history.csv", ("time_us", *record.get("columns", ()))),
         shapes=read_shapes(directory / "shapes.h5"),
     )
 

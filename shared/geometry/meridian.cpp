@@ -1,7 +1,9 @@
 #include "shared/geometry/meridian.h"
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
+#include <limits>
+
+#include "shared/numerics/root.h"
 
 namespace endoflow {
 
@@ -9,11 +11,8 @@ namespace {
 
 /// Where r' changes its sign between two parameters.
 double stationary_point(const Meridian& meridian, double lower, double upper) {
-    std::uintmax_t iterations = 60;
-    const auto slope = [&](double t) { return meridian.slope(t); };
-    const auto bracket = boost::math::tools::toms748_solve(slope, lower, upper,
-                                                           boost::math::tools::eps_tolerance<double>(48), iterations);
-    return 0.5 * (bracket.first + bracket.second);
+    constexpr int bits = 48;
+    return root_between([&](double t) { return meridian.slope(t); }, lower, upper, bits);
 }
 
 }  // namespace
@@ -34,6 +33,10 @@ std::optional<Neck> find_neck(const Meridian& meridian) {
         before = after;
     }
     return neck;
+}
+
+double neck_radius(const std::optional<Neck>& neck) {
+    return neck ? neck->radius : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace endoflow

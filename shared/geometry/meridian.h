@@ -34,4 +34,7 @@ inline constexpr double budding_neck_radius = 5.0;
 /// Zeros of r', found to round-off; empty when r grows all the way from the axis to the rim.
 [[nodiscard]] std::optional<Neck> find_neck(const Meridian& meridian);
 
+/// [nm]; infinite without a neck.
+[[nodiscard]] double neck_radius(const std::optional<Neck>& neck);
+
 }  // namespace endoflow

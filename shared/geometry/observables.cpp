@@ -89,7 +89,7 @@ Observables measure(const MembraneCurve& curve, const BendingModel& model) {
     const auto area_element = [&](double t) { return two_pi * shape.r.value(t) * shape.metric(t); };
 
     const BendingTerm bending{model};
-    Observables result{};
+    Observables result;
     result.neck = find_neck(shape);
     result.bud_height = largest(shape.z, shape.t) + (curve.closed() ? largest(shape.z, shape.t, -1) : -z_rim);
     result.membrane_area = shape.integrate(area_element);

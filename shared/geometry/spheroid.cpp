@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "shared/numerics/root.h"
 
 namespace endoflow {
 
@@ -44,11 +45,8 @@ double Spheroid::parameter_of(double label_fraction) const {
     if (label_fraction <= 0) return 0;
     if (label_fraction >= 1) return pi;
     const double whole = label(pi), wanted = label_fraction * whole;
-    std::uintmax_t evaluations = 60;
-    const auto bracket =
-        boost::math::tools::toms748_solve([&](double t) { return label(t) - wanted; }, 0.0, pi, -wanted, whole - wanted,
-                                          boost::math::tools::eps_tolerance<double>(45), evaluations);
-    return 0.5 * (bracket.first + bracket.second);
+    constexpr int bits = 45;
+    return root_between([&](double t) { return label(t) - wanted; }, 0.0, pi, -wanted, whole - wanted, bits);
 }
 
 double Spheroid::closest(double r, double z) const {
@@ -58,10 +56,8 @@ double Spheroid::closest(double r, double z) const {
     const auto slope = [&](double t) {  // of half the squared distance
         return (radius(t) - beside) * equator * std::cos(t) - (height(t) - above) * polar * std::sin(t);
     };
-    std::uintmax_t evaluations = 60;
-    const auto bracket = boost::math::tools::toms748_solve(slope, 0.0, pi / 2,
-                                                           boost::math::tools::eps_tolerance<double>(50), evaluations);
-    const double t = 0.5 * (bracket.first + bracket.second);
+    constexpr int bits = 50;
+    const double t = root_between(slope, 0.0, pi / 2, bits);
     return z < 0 ? pi - t : t;
 }
 

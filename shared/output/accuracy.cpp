@@ -56,7 +56,7 @@ double AccuracyWatch::measured(const AccuracyBound& bound, const HistoryRow& row
             return first == 0 ? 0 : std::abs(value / first - 1);
         }
         case AccuracyMeasure::accumulated: {
-            if (!memory.contains("energy_pN_nm")) memory["energy_pN_nm"] = row.bending_energy_pN_nm;
+            if (!memory.contains("energy_pN_nm")) memory["energy_pN_nm"] = row.membrane.bending_energy;
             const double sum = memory.value("sum", 0.0) + value * row.step_us;
             memory["sum"] = sum;
             const double energy = memory["energy_pN_nm"].get<double>();

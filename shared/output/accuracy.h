@@ -68,7 +68,7 @@ class AccuracyWatch {
     [[nodiscard]] double measured(const AccuracyBound& bound, const HistoryRow& row, RunRecord& memory) const;
 
     std::vector<AccuracyBound> bounds_;
-    std::vector<std::string> columns_;
+    std::vector<ColumnText> columns_;
 };
 
 }  // namespace endoflow

@@ -65,6 +65,12 @@ struct Hdf5File::Implementation {
     }
 };
 
+std::string hdf5_version() {
+    unsigned major = 0, minor = 0, release = 0;
+    H5get_libversion(&major, &minor, &release);
+    return fmt::format("{}.{}.{}", major, minor, release);
+}
+
 Hdf5File::Hdf5File(const std::filesystem::path& file, Mode mode)
     : implementation_(new Implementation{file, Handle(open_file(file, mode), H5Fclose)}) {
     implementation_->require(hid_t{implementation_->file}, "open it as HDF5");

@@ -7,6 +7,9 @@
 
 namespace endoflow {
 
+/// Of the library this process is linked to.
+[[nodiscard]] std::string hdf5_version();
+
 /// The few HDF5 operations a run directory needs: one-dimensional arrays of doubles, and attributes.
 /// Every failure is an IoError that names the file. Objects are addressed by their absolute name, "/shapes/000012/r".
 class Hdf5File {

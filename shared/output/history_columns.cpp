@@ -5,40 +5,70 @@
 
 namespace endoflow {
 
-std::optional<double> HistoryColumn::value_in(const HistoryRow& row) const {
-    return std::visit([&](auto pointer) { return std::optional<double>(row.*pointer); }, member);
-}
-
 const std::vector<HistoryColumn>& common_history_columns() {
     using R = HistoryRow;
+    using Value = std::optional<double>;
+    constexpr bool of_shape = true;
     static const std::vector<HistoryColumn> columns{
-        {"time_us", "time at the end of the step", &R::time_us},
-        {"step_us", "length of the step", &R::step_us},
+        {"time_us", "time at the end of the step", [](const R& r) -> Value { return r.time_us; }},
+        {"step_us", "length of the step", [](const R& r) -> Value { return r.step_us; }},
         {"neck_radius_nm", "narrowest place between the bud's widest place and the rim; empty without a neck",
-         &R::neck_radius_nm},
-        {"bud_diameter_nm", "lateral diameter of the bud above the neck; empty without a neck", &R::bud_diameter_nm},
-        {"bud_height_nm", "highest point above the rim", &R::bud_height_nm},
-        {"membrane_area_nm2", "area inside the domain; grows as membrane flows in", &R::membrane_area_nm2},
-        {"bending_energy_pN_nm", "(S), or (D) of the diffuse membrane", &R::bending_energy_pN_nm},
-        {"molecule_mass_nm2", "∫ c dA, conserved without exchange", &R::molecule_mass_nm2},
-        {"area_strain_max", "largest local change of area of the material", &R::area_strain_max},
-        {"volume_extracellular_nm3", "volume gained against the flat plane", &R::volume_extracellular_nm3},
-        {"wall_s", "wall time since the start", &R::wall_s},
+         [](const R& r) { return r.membrane.neck ? Value(r.membrane.neck->radius) : Value(); }, of_shape},
+        {"bud_diameter_nm", "lateral diameter of the bud above the neck; empty without a neck",
+         [](const R& r) { return r.membrane.neck ? Value(r.membrane.neck->lateral_diameter) : Value(); }, of_shape},
+        {"bud_height_nm", "highest point above the rim", [](const R& r) -> Value { return r.membrane.bud_height; },
+         of_shape},
+        {"membrane_area_nm2", "area inside the domain; grows as membrane flows in",
+         [](const R& r) -> Value { return r.membrane.membrane_area; }, of_shape},
+        {"bending_energy_pN_nm", "(S), or (D) of the diffuse membrane",
+         [](const R& r) -> Value { return r.membrane.bending_energy; }},
+        {"molecule_mass_nm2", "∫ c dA, conserved without exchange",
+         [](const R& r) -> Value { return r.membrane.molecule_mass; }},
+        {"area_strain_max", "largest local change of area of the material",
+         [](const R& r) -> Value { return r.area_strain_max; }},
+        {"volume_extracellular_nm3", "volume gained against the flat plane",
+         [](const R& r) -> Value { return r.membrane.extracellular_volume; }, of_shape},
+        {"wall_s", "wall time since the start", [](const R& r) -> Value { return r.wall_s; }},
     };
     return columns;
 }
 
-bool has_column(const std::string& column, const std::vector<std::string>& own_columns) {
-    const auto& common = common_history_columns();
-    return std::any_of(common.begin(), common.end(), [&](const auto& entry) { return entry.name == column; }) ||
-           std::find(own_columns.begin(), own_columns.end(), column) != own_columns.end();
+std::vector<std::pair<std::string, std::optional<double>>> shape_values(const ShapeMeasures& shape) {
+    HistoryRow row;
+    static_cast<ShapeMeasures&>(row.membrane) = shape;
+    std::vector<std::pair<std::string, std::optional<double>>> values;
+    for (const HistoryColumn& column : common_history_columns())
+        if (column.of_shape) values.emplace_back(column.name, column.value(row));
+    return values;
+}
+
+std::vector<ColumnText> all_columns(const std::vector<ColumnText>& own_columns) {
+    std::vector<ColumnText> all = texts_of(common_history_columns());
+    all.insert(all.end(), own_columns.begin(), own_columns.end());
+    return all;
+}
+
+std::string columns_as_markdown(const std::vector<ColumnText>& columns) {
+    std::string text = "| column | what |\n| --- | --- |\n";
+    for (const ColumnText& column : columns) {
+        text += "| `" + column.name + "` | ";
+        for (const char c : column.meaning) text += c == '|' ? std::string("\\|") : std::string(1, c);
+        text += " |\n";
+    }
+    return text;
+}
+
+bool has_column(const std::string& column, const std::vector<ColumnText>& own_columns) {
+    const std::vector<ColumnText> all = all_columns(own_columns);
+    return std::any_of(all.begin(), all.end(), [&](const ColumnText& entry) { return entry.name == column; });
 }
 
 std::optional<double> value_of(const std::string& column, const HistoryRow& row,
-                               const std::vector<std::string>& own_columns) {
+                               const std::vector<ColumnText>& own_columns) {
     for (const HistoryColumn& common : common_history_columns())
-        if (common.name == column) return common.value_in(row);
-    const auto own = std::find(own_columns.begin(), own_columns.end(), column);
+        if (common.name == column) return common.value(row);
+    const auto own = std::find_if(own_columns.begin(), own_columns.end(),
+                                  [&](const ColumnText& entry) { return entry.name == column; });
     if (own == own_columns.end()) throw std::logic_error("history.csv has no column " + column);
     return row.extra.at(static_cast<std::size_t>(own - own_columns.begin()));
 }

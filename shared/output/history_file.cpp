@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "shared/output/atomic_file.h"
+#include "shared/output/output_plan.h"
 #include "shared/support/error.h"
 
 namespace endoflow {
@@ -16,10 +17,9 @@ namespace {
 
 constexpr std::uintmax_t largest_history = std::uintmax_t{1} << 32;
 
-std::string header(const std::vector<std::string>& extra_columns) {
+std::string header(const std::vector<ColumnText>& own_columns) {
     std::string text;
-    for (const auto& column : common_history_columns()) text += (text.empty() ? "" : ",") + column.name;
-    for (const auto& name : extra_columns) text += "," + name;
+    for (const ColumnText& column : all_columns(own_columns)) text += (text.empty() ? "" : ",") + column.name;
     return text;
 }
 
@@ -30,52 +30,74 @@ std::string number(double value, const std::string& what) {
     return fmt::format("{:.15g}", value);
 }
 
-bool not_later(double time_us, double last_time_us) {
-    return time_us <= last_time_us * (1 + 1e-12);
+std::vector<std::string> cells_of(const std::string& line) {
+    std::vector<std::string> cells(1);
+    for (const char c : line) {
+        if (c == ',')
+            cells.emplace_back();
+        else
+            cells.back() += c;
+    }
+    return cells;
 }
 
-/// The time of a row; empty when the row is damaged: another number of cells, or cells that are not numbers.
-std::optional<double> time_of_row(const std::string& line, std::ptrdiff_t cells) {
-    if (std::count(line.begin(), line.end(), ',') + 1 != cells) return std::nullopt;
-    std::istringstream stream(line);
-    std::optional<double> time;
-    for (std::string cell; std::getline(stream, cell, ',');) {
-        if (cell.empty()) continue;
+/// The values of a row; empty when the row is damaged: another number of cells, cells that are not numbers, no time.
+std::optional<std::vector<std::optional<double>>> values_of_row(const std::string& line, std::size_t count) {
+    const std::vector<std::string> cells = cells_of(line);
+    if (cells.size() != count || cells.front().empty()) return std::nullopt;
+    std::vector<std::optional<double>> values;
+    for (const std::string& cell : cells) {
         char* end = nullptr;
         const double value = std::strtod(cell.c_str(), &end);
         if (end != cell.c_str() + cell.size() || !std::isfinite(value)) return std::nullopt;
-        if (!time) time = value;
+        values.push_back(cell.empty() ? std::nullopt : std::optional(value));
     }
-    return line.starts_with(',') ? std::nullopt : time;
+    return values;
+}
+
+/// Calls take(line, values) for the intact rows; returns the header.
+template <class Take>
+std::string each_row(const std::filesystem::path& file, const Take& take) {
+    std::istringstream lines(read_file(file, largest_history));
+    std::string first, line;
+    std::getline(lines, first);
+    const std::size_t count = cells_of(first).size();
+    while (std::getline(lines, line) && !lines.eof()) {  // at the end of the file: a row without its end
+        const auto values = values_of_row(line, count);
+        if (!values) break;
+        take(line, *values);
+    }
+    return first;
 }
 
 }  // namespace
 
-HistoryFile::HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns)
-    : path_(file), extra_columns_(extra_columns.size()) {
-    write_file_atomically(file, header(extra_columns) + "\n");
+HistoryFile::HistoryFile(const std::filesystem::path& file, const std::vector<ColumnText>& own_columns)
+    : path_(file), own_columns_(own_columns.size()) {
+    write_file_atomically(file, header(own_columns) + "\n");
     stream_.open(file, std::ios::app);
 }
 
-KeptHistory read_kept_history(const std::filesystem::path& file, const std::vector<std::string>& extra_columns,
+History read_history(const std::filesystem::path& file) {
+    History history;
+    history.columns = cells_of(each_row(
+        file, [&](const std::string&, const std::vector<std::optional<double>>& row) { history.rows.push_back(row); }));
+    return history;
+}
+
+KeptHistory read_kept_history(const std::filesystem::path& file, const std::vector<ColumnText>& own_columns,
                               double last_time_us, std::optional<long> expected_rows) {
-    const std::string content = read_file(file, largest_history);
-    if (content.substr(0, content.find('\n')) != header(extra_columns))
-        throw IoError(file.string() + ": its columns are not those of this engine; run without --restart");
-    std::istringstream lines(content);
-    std::string line;
-    std::getline(lines, line);
-    const std::ptrdiff_t cells = std::count(line.begin(), line.end(), ',') + 1;
     KeptHistory kept;
-    kept.text = line + "\n";
-    while (std::getline(lines, line) && !lines.eof()) {  // at the end of the file: a row without its end
-        const auto time = time_of_row(line, cells);
-        if (!time) break;
-        kept.reached = *time;
-        if (!not_later(*time, last_time_us)) continue;
-        kept.text += line + "\n";
-        kept.times.push_back(*time);
-    }
+    const std::string first =
+        each_row(file, [&](const std::string& line, const std::vector<std::optional<double>>& row) {
+            kept.reached = *row.front();
+            if (later(kept.reached, last_time_us)) return;
+            kept.text += line + "\n";
+            kept.times.push_back(kept.reached);
+        });
+    if (first != header(own_columns))
+        throw IoError(file.string() + ": its columns are not those of this engine; run without --restart");
+    kept.text = first + "\n" + kept.text;
     if (const auto rows = static_cast<long>(kept.times.size()); expected_rows && rows != *expected_rows)
         throw IoError(
             fmt::format("{}: {} intact rows up to t = {} µs, but the run had written {} when it made its "
@@ -84,20 +106,20 @@ KeptHistory read_kept_history(const std::filesystem::path& file, const std::vect
     return kept;
 }
 
-HistoryFile::HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns,
+HistoryFile::HistoryFile(const std::filesystem::path& file, const std::vector<ColumnText>& own_columns,
                          KeptHistory kept)
-    : path_(file), extra_columns_(extra_columns.size()), times_(std::move(kept.times)) {
+    : path_(file), own_columns_(own_columns.size()), times_(std::move(kept.times)) {
     write_file_atomically(file, kept.text);
     stream_.open(file, std::ios::app);
 }
 
 void HistoryFile::append(const HistoryRow& row) {
-    if (row.extra.size() != extra_columns_)
+    if (row.extra.size() != own_columns_)
         throw std::logic_error("a history row must have one value for each of the engine's own columns");
     std::string line;
     for (const auto& column : common_history_columns()) {
         if (!line.empty()) line += ",";
-        if (const auto value = column.value_in(row)) line += number(*value, column.name);
+        if (const auto value = column.value(row)) line += number(*value, column.name);
     }
     for (const double value : row.extra) line += "," + number(value, "a column of history.csv");
     stream_ << line << '\n' << std::flush;
@@ -106,7 +128,7 @@ void HistoryFile::append(const HistoryRow& row) {
 }
 
 long HistoryFile::rows_until(double time_us) const {
-    return std::count_if(times_.begin(), times_.end(), [&](double time) { return not_later(time, time_us); });
+    return std::count_if(times_.begin(), times_.end(), [&](double time) { return !later(time, time_us); });
 }
 
 }  // namespace endoflow

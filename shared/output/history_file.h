@@ -10,6 +10,16 @@
 
 namespace endoflow {
 
+/// The columns of a history.csv and its rows up to the first torn or damaged one; cells of what does not exist are
+/// empty.
+struct History {
+    std::vector<std::string> columns;
+    std::vector<std::vector<std::optional<double>>> rows;
+};
+
+/// Throws IoError when the file cannot be read.
+[[nodiscard]] History read_history(const std::filesystem::path& file);
+
 /// What a restart keeps of a history.csv: the rows up to its time and up to the first torn or damaged one.
 struct KeptHistory {
     std::string text;           // the header and the rows
@@ -20,17 +30,17 @@ struct KeptHistory {
 /// Reads what a restart from `last_time_us` keeps and changes nothing. Throws IoError when the columns differ or the
 /// rows are not `expected_rows` in number.
 [[nodiscard]] KeptHistory read_kept_history(const std::filesystem::path& file,
-                                            const std::vector<std::string>& extra_columns, double last_time_us,
+                                            const std::vector<ColumnText>& own_columns, double last_time_us,
                                             std::optional<long> expected_rows = {});
 
 /// history.csv: one line per accepted step, on the disk before the next step begins.
 class HistoryFile {
   public:
     /// Starts a new file. Throws IoError.
-    HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns);
+    HistoryFile(const std::filesystem::path& file, const std::vector<ColumnText>& own_columns);
 
     /// Continues an existing file, of which only this is kept. Throws IoError.
-    HistoryFile(const std::filesystem::path& file, const std::vector<std::string>& extra_columns, KeptHistory kept);
+    HistoryFile(const std::filesystem::path& file, const std::vector<ColumnText>& own_columns, KeptHistory kept);
 
     /// Throws IoError when the row cannot be written, SolverError when a value is not finite.
     void append(const HistoryRow& row);
@@ -41,7 +51,7 @@ class HistoryFile {
 
   private:
     std::filesystem::path path_;
-    std::size_t extra_columns_;
+    std::size_t own_columns_;
     std::vector<double> times_;  // of the rows in the file, us
     std::ofstream stream_;
 };

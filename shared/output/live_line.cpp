@@ -25,7 +25,7 @@ std::string format_duration(double seconds) {
 }
 
 std::string live_text(const HistoryRow& row, double end_time_us, double seconds_left) {
-    const std::string neck = row.neck_radius_nm ? fmt::format("{:.4g} nm", *row.neck_radius_nm) : "-";
+    const std::string neck = row.membrane.neck ? fmt::format("{:.4g} nm", row.membrane.neck->radius) : "-";
     return fmt::format("t {:.4g}/{:.4g} µs  step {:.1e}  neck {}  strain {:.0e}  left {}", row.time_us, end_time_us,
                        row.step_us, neck, row.area_strain_max, format_duration(seconds_left));
 }

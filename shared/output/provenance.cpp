@@ -1,7 +1,6 @@
 #include "shared/output/provenance.h"
 
 #include <fmt/format.h>
-#include <hdf5.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -23,12 +22,6 @@ std::string processor_name() {
     return "unknown";
 }
 
-std::string hdf5_version() {
-    unsigned major = 0, minor = 0, release = 0;
-    H5get_libversion(&major, &minor, &release);
-    return fmt::format("{}.{}.{}", major, minor, release);
-}
-
 }  // namespace
 
 std::string host_name() {
@@ -36,9 +29,7 @@ std::string host_name() {
     return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
-nlohmann::ordered_json provenance(const LibraryVersions& engine_libraries) {
-    LibraryVersions libraries = engine_libraries;
-    libraries["hdf5"] = hdf5_version();
+nlohmann::ordered_json provenance(const LibraryVersions& libraries) {
     return {{"version", version()},
             {"git", git_description()},
             {"compiler", compiler()},

@@ -10,7 +10,7 @@ namespace endoflow {
 using LibraryVersions = std::map<std::string, std::string>;
 
 /// Program version, git description, library versions, host, cores, processor: where and with what a run was made.
-[[nodiscard]] nlohmann::ordered_json provenance(const LibraryVersions& engine_libraries);
+[[nodiscard]] nlohmann::ordered_json provenance(const LibraryVersions& libraries);
 
 /// The name of the machine this process runs on.
 [[nodiscard]] std::string host_name();

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "shared/output/atomic_file.h"
-#include "shared/output/output_times.h"
+#include "shared/output/output_plan.h"
 #include "shared/output/shapes_file.h"
 
 namespace endoflow {
@@ -21,7 +20,7 @@ std::optional<long> expected(const Checkpoint& checkpoint, const char* count) {
 /// run.json is newer than the record in the checkpoint, but need not be whole.
 RunRecord last_words(const RunDirectory& directory, const RunRecord& otherwise) {
     try {
-        return parse_record(read_file(directory.record(), largest_record), directory.record().string());
+        return read_record(directory);
     } catch (const IoError&) {
         return otherwise;
     }

@@ -18,9 +18,6 @@ inline constexpr const char* rows = "history_rows";  // rows of history.csv up t
 inline constexpr const char* shapes = "shapes";      // shapes up to its time
 }  // namespace checkpoint_entry
 
-/// The largest run.json that is read, bytes.
-inline constexpr std::uintmax_t largest_record = std::uintmax_t{1} << 26;
-
 /// What a restart goes on from.
 // NOLINTNEXTLINE(bugprone-exception-escape): what the analysis sees thrown in JSON's move is its own assertion.
 struct RestartPoint {

@@ -11,10 +11,10 @@
 #include <mutex>
 
 #include "shared/output/atomic_file.h"
+#include "shared/output/hdf5_file.h"
 #include "shared/output/live_line.h"
-#include "shared/output/output_times.h"
+#include "shared/output/output_plan.h"
 #include "shared/output/restart_point.h"
-#include "shared/output/run_directory.h"
 #include "shared/output/run_lock.h"
 #include "shared/output/shapes_file.h"
 #include "shared/support/console.h"
@@ -53,20 +53,6 @@ std::shared_ptr<spdlog::logger> open_log(const std::filesystem::path& file) {
 }
 
 }  // namespace
-
-std::string to_string(ExitReason reason) {
-    switch (reason) {
-        case ExitReason::done:
-            return "done";
-        case ExitReason::budded:
-            return "budded";
-        case ExitReason::neck_closed:
-            return "neck-closed";
-        case ExitReason::interrupted:
-            return "interrupted";
-    }
-    return "unknown";
-}
 
 struct RunOutput::Implementation {
     RunDirectory directory;
@@ -233,6 +219,7 @@ RunOutput::RunOutput(const Parameters& parameters, EngineIdentity engine, std::f
     self.directory = {std::move(directory)};
     self.parameters = parameters;
     self.engine = std::move(engine);
+    self.engine.libraries["hdf5"] = hdf5_version();
     self.role = role;
     self.accuracy.emplace(parameters, self.engine);
     if (role == OutputRole::observer)
@@ -292,12 +279,12 @@ void RunOutput::write_shape(double time_us, const MembraneCurve& curve) {
     implementation_->shapes->append(time_us, curve);
 }
 
-void RunOutput::record_event(const std::string& name, double time_us, const std::map<std::string, double>& values) {
+void RunOutput::record_event(const std::string& name, double time_us, const ShapeMeasures& shape) {
     if (implementation_->role == OutputRole::observer) return;
     auto& self = *implementation_;
     if (self.record["events"].contains(name)) return;
     RunRecord event = {{"time_us", time_us}};
-    for (const auto& [key, value] : values) event[key] = value;
+    for (const auto& [key, value] : shape_values(shape)) event[key] = value ? RunRecord(*value) : RunRecord();
     self.record["events"][name] = event;
     self.live_line->finish();
     say(stdout, fmt::format("{} at t = {:.6g} µs\n", name, time_us));

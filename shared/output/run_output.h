@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,11 +15,6 @@
 #include "shared/parameters/parameters.h"
 
 namespace endoflow {
-
-/// Why a run ended without an error.
-enum class ExitReason { done, budded, neck_closed, interrupted };
-
-[[nodiscard]] std::string to_string(ExitReason reason);
 
 enum class StartMode { fresh, restart };
 
@@ -64,8 +58,9 @@ class RunOutput {
     /// Appends to shapes.h5.
     void write_shape(double time_us, const MembraneCurve& curve);
 
-    /// run.json events: {"budding": {"time_us": …, values…}}. A name recorded before is not replaced.
-    void record_event(const std::string& name, double time_us, const std::map<std::string, double>& values = {});
+    /// run.json events: {"budding": {"time_us": …, what is measured on the shape then, null without a neck…}}. A name
+    /// recorded before is not replaced.
+    void record_event(const std::string& name, double time_us, const ShapeMeasures& shape);
 
     /// run.json notes: anything an engine wants to say about the run as a whole.
     void note(const std::string& key, const nlohmann::ordered_json& value);

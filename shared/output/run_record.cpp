@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "shared/output/atomic_file.h"
 #include "shared/parameters/parameter_rendering.h"
 #include "shared/parameters/parameter_table.h"
 #include "shared/support/error.h"
@@ -33,6 +34,20 @@ nlohmann::ordered_json recorded(const RunRecord& record, const ParameterRow& row
 
 }  // namespace
 
+std::string to_string(ExitReason reason) {
+    switch (reason) {
+        case ExitReason::done:
+            return "done";
+        case ExitReason::budded:
+            return "budded";
+        case ExitReason::neck_closed:
+            return "neck-closed";
+        case ExitReason::interrupted:
+            return "interrupted";
+    }
+    return "unknown";
+}
+
 RunRecord new_record(const Parameters& parameters, const EngineIdentity& engine) {
     RunRecord record;
     record["format"] = "endoflow run";
@@ -53,6 +68,9 @@ RunRecord new_record(const Parameters& parameters, const EngineIdentity& engine)
     record["wall_s"] = 0.0;
     record["cpu_s"] = 0.0;
     record["phases"] = RunRecord::object();
+    record["columns"] = RunRecord::object();
+    for (const ColumnText& column : all_columns(engine.history_columns))
+        record["columns"][column.name] = column.meaning;
     record["events"] = RunRecord::object();
     record["accuracy"] = RunRecord::object();
     record["alarms"] = RunRecord::array();
@@ -69,6 +87,10 @@ RunRecord parse_record(const std::string& text, const std::string& source) {
     } catch (const RunRecord::exception& failure) {
         throw IoError(fmt::format("{}: damaged run record: {}", source, failure.what()));
     }
+}
+
+RunRecord read_record(const RunDirectory& directory) {
+    return parse_record(read_file(directory.record(), largest_record), directory.record().string());
 }
 
 void require_continuable(const RunRecord& record, const Parameters& parameters, const EngineIdentity& engine,

@@ -1,11 +1,13 @@
 #pragma once
 
-#include <map>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "shared/output/history_columns.h"
 #include "shared/output/provenance.h"
+#include "shared/output/run_directory.h"
 #include "shared/parameters/parameters.h"
 
 namespace endoflow {
@@ -15,22 +17,33 @@ enum class RowOrder { in_time, along_a_branch };
 
 /// What an engine says of itself once.
 struct EngineIdentity {
-    std::string name;                          // "boundary-integral" or "phase-field"
-    LibraryVersions libraries;                 // what it is linked to
-    std::vector<std::string> history_columns;  // its own columns of history.csv, names ending in their unit
+    std::string name;                         // "boundary-integral" or "phase-field"
+    LibraryVersions libraries;                // what it is linked to
+    std::vector<ColumnText> history_columns;  // its own columns of history.csv
     int processes = 1;
     int threads = 1;
     RowOrder row_order = RowOrder::in_time;
 };
 
+/// Why a run ended without an error.
+enum class ExitReason { done, budded, neck_closed, interrupted };
+
+[[nodiscard]] std::string to_string(ExitReason reason);
+
 /// The content of run.json.
 using RunRecord = nlohmann::ordered_json;
+
+/// The largest run.json that is read, bytes.
+inline constexpr std::uintmax_t largest_record = std::uintmax_t{1} << 26;
 
 /// The record of a run that begins.
 [[nodiscard]] RunRecord new_record(const Parameters& parameters, const EngineIdentity& engine);
 
 /// Throws IoError that begins with `source` when the text is no run record.
 [[nodiscard]] RunRecord parse_record(const std::string& text, const std::string& source);
+
+/// run.json of a run. Throws IoError.
+[[nodiscard]] RunRecord read_record(const RunDirectory& directory);
 
 /// Throws IoError when another engine wrote the record, InputError when the parameters state another problem than
 /// the record's: only those that the parameter table marks as free may differ.

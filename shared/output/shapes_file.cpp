@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "shared/output/hdf5_file.h"
-#include "shared/output/output_times.h"
+#include "shared/output/output_plan.h"
 #include "shared/support/error.h"
 #include "shared/support/version.h"
 
@@ -47,10 +47,6 @@ void require_finite(const MembraneCurve& curve) {
                               "the step that led here should have been rejected: lower time.tolerance or "
                               "time.max_step");
     }
-}
-
-bool later(double time, double last_time) {
-    return time > last_time * (1 + same_time);
 }
 
 }  // namespace

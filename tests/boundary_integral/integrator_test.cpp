@@ -9,6 +9,7 @@
 #include "boundary_integral/flow/dense_solver.h"
 #include "boundary_integral/integration/cvode_failures.h"
 #include "boundary_integral/integration/stiff_integrator.h"
+#include "shared/numerics/level_crossing.h"
 #include "shared/support/error.h"
 
 namespace {
@@ -136,8 +137,9 @@ TEST_CASE("a level is located inside a step", "[integrator]") {
     std::optional<double> found, found_late;
     while (!found && i.time() < 5) {
         i.advance(5);
-        found = falls_below(i, second, 0.5);
-        found_late = falls_below(i, late, 0.5);
+        const double begin = i.time() - i.last_step(), end = i.time();
+        found = falls_below([&](double time) { return second(i.state_at(time)); }, begin, end, 0.5);
+        found_late = falls_below([&](double time) { return late(i.state_at(time)); }, begin, end, 0.5);
     }
     REQUIRE(found);
     REQUIRE(found_late);

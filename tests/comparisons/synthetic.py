@@ -15,7 +15,6 @@ import numpy as np
 from scipy.integrate import trapezoid
 
 from endoflow.curves import arc_length, equivalent_radius
-from endoflow.history import REQUIRED_COLUMNS
 from endoflow.shapes import FIELDS
 
 RIM = 80.0
@@ -180,7 +179,8 @@ def write_run(directory, engine, membrane_at, shape_times, points=400, case=None
     directory.mkdir(parents=True, exist_ok=True)
     end = shape_times[-1]
     history_times = np.linspace(shape_times[0], end, 201)
-    write_history(directory / "history.csv", [history_row(membrane_at(t), t, end / 200) for t in history_times])
+    rows = [history_row(membrane_at(t), t, end / 200) for t in history_times]
+    write_history(directory / "history.csv", rows)
     with h5py.File(directory / "shapes.h5", "w") as file:
         for number, time in enumerate(shape_times):
             write_shape(file, number, time, membrane_at, points)
@@ -202,6 +202,7 @@ def write_run(directory, engine, membrane_at, shape_times, points=400, case=None
         },
         "steps": {"accepted": 201, "rejected": 3},
         "wall_s": 20 * end,
+        "columns": dict.fromkeys(rows[0], "what the family has"),
         "phases": {"assembly": {"wall_s": 5.0, "cpu_s": 9.0}},
         "events": {} if budding is None else {"budding": {"time_us": budding, "neck_radius_nm": 5.0}},
     }
@@ -213,9 +214,9 @@ def write_history(path, rows):
     """rows: list of {column: value}; nan is written as an empty cell."""
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
-        writer.writerow(REQUIRED_COLUMNS)
+        writer.writerow(rows[0])
         for row in rows:
-            writer.writerow(["" if np.isnan(row[name]) else f"{row[name]:.12g}" for name in REQUIRED_COLUMNS])
+            writer.writerow(["" if np.isnan(value) else f"{value:.12g}" for value in row.values()])
 
 
 def write_shape(file, number, time, membrane_at, points):

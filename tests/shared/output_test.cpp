@@ -10,7 +10,7 @@
 #include "shared/output/checkpoint.h"
 #include "shared/output/hdf5_file.h"
 #include "shared/output/live_line.h"
-#include "shared/output/output_times.h"
+#include "shared/output/output_plan.h"
 #include "shared/output/run_output.h"
 #include "shared/output/shapes_file.h"
 #include "shared/support/console.h"
@@ -34,18 +34,19 @@ TEST_CASE("files are replaced whole or not at all") {
 TEST_CASE("history.csv has named columns, empty cells for what does not exist, and continues after a crash") {
     const TemporaryDirectory directory;
     const auto file = directory.path() / "history.csv";
+    const std::vector<ColumnText> own = test_engine().history_columns;
     {
-        HistoryFile history(file, {"own_nm"});
+        HistoryFile history(file, own);
         auto row = row_at(0.5);
         history.append(row);
         row.time_us = 1;
-        row.neck_radius_nm = 12.5;
+        row.membrane.neck = Neck{12.5, 0, 0};
         history.append(row);
         history.append(row_at(1.5));
     }
     std::ofstream(file, std::ios::app) << "2.0,torn";
     {
-        HistoryFile history(file, {"own_nm"}, read_kept_history(file, {"own_nm"}, 1.0));
+        HistoryFile history(file, own, read_kept_history(file, own, 1.0));
         history.append(row_at(1.25));
     }
     std::istringstream lines(content(file));
@@ -60,12 +61,12 @@ TEST_CASE("history.csv has named columns, empty cells for what does not exist, a
     CHECK(second.rfind("1,0,12.5,", 0) == 0);
     CHECK(third.rfind("1.25,", 0) == 0);
     CHECK_FALSE(std::getline(lines, fourth));
-    CHECK_THROWS_AS(read_kept_history(file, {"other"}, 1.0), IoError);
+    CHECK_THROWS_AS(read_kept_history(file, {{"other", ""}}, 1.0), IoError);
 }
 
 TEST_CASE("no value that is not finite reaches a file") {
     const TemporaryDirectory directory;
-    HistoryFile history(directory.path() / "history.csv", {"own_nm"});
+    HistoryFile history(directory.path() / "history.csv", test_engine().history_columns);
     CHECK_THROWS_AS(history.append(row_at(NAN)), SolverError);
     CHECK_THROWS_AS(history.append(row_at(1, {INFINITY})), SolverError);
     ShapesFile shapes(directory.path() / "shapes.h5");
@@ -132,8 +133,9 @@ TEST_CASE("a run's directory: record, events, restart, and an earlier run that i
         output.record_step(row_at(0.5));
         output.write_shape(0.5, small_curve(1));
         output.count_rejected_step();
-        output.record_event("budding", 0.45, {{"neck_radius_nm", 5.0}});
-        output.record_event("budding", 0.46);
+        output.record_event("budding", 0.45, {Neck{5, 60, 0}, 80, 2e4, 1e5});
+        output.record_event("budding", 0.46, {});
+        output.record_event("neck_closed", 0.5, {{}, 82, 3e4, 2e5});
         Checkpoint checkpoint;
         checkpoint.time_us = 0.5;
         output.write_checkpoint(checkpoint);
@@ -154,7 +156,14 @@ TEST_CASE("a run's directory: record, events, restart, and an earlier run that i
     CHECK(final_record["steps"]["accepted"] == 2);
     CHECK(final_record["steps"]["rejected"] == 1);
     CHECK(final_record["restarts"] == 1);
-    CHECK(final_record["events"]["budding"]["time_us"] == 0.45);
+    CHECK(final_record["events"]["budding"] == nlohmann::json({{"time_us", 0.45},
+                                                               {"neck_radius_nm", 5},
+                                                               {"bud_diameter_nm", 60},
+                                                               {"bud_height_nm", 80},
+                                                               {"membrane_area_nm2", 2e4},
+                                                               {"volume_extracellular_nm3", 1e5}}));
+    CHECK(final_record["events"]["neck_closed"]["neck_radius_nm"].is_null());
+    CHECK(final_record["events"]["neck_closed"]["bud_height_nm"] == 82);
     CHECK(final_record["parameters"]["molecules"]["patch_radius"] == 36.0);
     CHECK(final_record["provenance"]["libraries"].contains("hdf5"));
 #ifdef __clang__
@@ -205,7 +214,7 @@ TEST_CASE("durations read like a clock") {
 TEST_CASE("the live line fits a terminal of 80 columns, and mu is one of them") {
     HistoryRow row = row_at(12.34567e-5);
     row.step_us = 1.2345e-7;
-    row.neck_radius_nm = 12.345678;
+    row.membrane.neck = Neck{12.345678, 0, 0};
     row.area_strain_max = 1.2345e-10;
     const std::string line = live_text(row, 123.45678, 35999);
     CHECK(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; }) < 80);
@@ -217,16 +226,6 @@ TEST_CASE("a narrower terminal gets the beginning of the live line, cut between 
     CHECK(clipped("t 1 µs", 4) == "t 1 ");
     CHECK(clipped("t 1 µs", 6) == "t 1 µs");
     CHECK(clipped("t 1 µs", 0) == "t 1 µs");
-}
-
-TEST_CASE("shapes are due early, then at multiples, at the same times whatever the steps were") {
-    std::vector<double> times;
-    for (double time = 0; time < 0.2;) times.push_back(time = next_shape_time(0.1, time));
-    const std::vector<double> due{0.1 / 256, 0.1 / 128, 0.1 / 64, 0.1 / 32, 0.1 / 16,
-                                  0.1 / 8,   0.1 / 4,   0.1 / 2,  0.1,      0.2};
-    REQUIRE(times.size() == due.size());
-    for (std::size_t i = 0; i < due.size(); ++i) CHECK(times[i] == Approx(due[i]).epsilon(1e-12));
-    CHECK(next_shape_time(0.1, 0.06) == Approx(0.1));
 }
 
 TEST_CASE("checkpoints are frequent while they are cheap, and cost at most a fiftieth of the time") {

@@ -29,7 +29,9 @@ inline MembraneCurve small_curve(double scale) {
 }
 
 inline EngineIdentity test_engine() {
-    return {.name = "boundary-integral", .libraries = {{"test", "1.0"}}, .history_columns = {"own_nm"}};
+    return {.name = "boundary-integral",
+            .libraries = {{"test", "1.0"}},
+            .history_columns = {{"own_nm", "what the test writes"}}};
 }
 
 /// A run of three rows and two shapes with its checkpoint at 0.5 µs, left as by a kill.
