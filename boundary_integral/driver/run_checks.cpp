@@ -9,8 +9,8 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
-// Jump of c's fifth derivative from which on c overshoots by tenths. Below it, it does by the hundredths of a resolved
-// edge, and a law that does not stand them is to blame.
+/// Jump of c's fifth derivative from which on c overshoots by tenths. Below it, it does by the hundredths of a resolved
+/// edge, and a law that does not stand them is to blame.
 constexpr double unresolved = 2.0;
 
 }  // namespace

@@ -23,8 +23,8 @@ using IntegratorStatistics = StiffIntegrator::Statistics;
 
 constexpr double smallest_step = 1e-14;  // µs
 
-// Where steps are as long as a slowly growing coat lets them, a membrane that relaxes in less than a nanosecond must be
-// at rest: what the iteration leaves of it is a velocity, 10⁵ times as large per time as over the step.
+/// Where steps are as long as a slowly growing coat lets them, a membrane that relaxes in less than a nanosecond must
+/// be at rest: what the iteration leaves of it is a velocity, 10⁵ times as large per time as over the step.
 StepLimits step_limits(const Parameters& parameters) {
     StepLimits limits{longest_step(parameters), smallest_step};
     if (parameters.molecules.exchange != Exchange::none) limits.iteration = 1e-5;
@@ -128,8 +128,8 @@ class RunLoop {
     long next_start_ = parameters_.boundary_integral.restart_interval;
     long rejected_ = 0;
 
-    // A checkpoint is always of a point where the integrator starts anew: a restart then makes the steps that a run
-    // without interruption makes, whenever it was interrupted, and whatever its end was.
+    /// A checkpoint is always of a point where the integrator starts anew: a restart then makes the steps that a run
+    /// without interruption makes, whenever it was interrupted, and whatever its end was.
     [[nodiscard]] Checkpoint make_checkpoint() const {
         Checkpoint checkpoint;
         save(start_, checkpoint);

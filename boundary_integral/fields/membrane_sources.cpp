@@ -14,13 +14,13 @@ constexpr int near_points = 24;           // per side of the closest point
 constexpr double near_distance = 0.7;     // in element lengths; as for the walls' panels
 constexpr double least_distance = 1e-12;  // nm
 
-// From 2.5 lengths of a cluster on, the parts of its kernels above the fifth degree are below 2e-6 of them.
+/// From 2.5 lengths of a cluster on, the parts of its kernels above the fifth degree are below 2e-6 of them.
 constexpr Index cluster_elements = 4;
 constexpr int cluster_points = 6;
 constexpr double far_distance = 2.5;  // in lengths of the cluster
 
-// T(i, j): a density at Gauss points, weighted, is replaced at the cluster's points by one with the same moments
-// against polynomials. The points are in (-1, 1).
+/// T(i, j): a density at Gauss points, weighted, is replaced at the cluster's points by one with the same moments
+/// against polynomials. The points are in (-1, 1).
 Eigen::MatrixXd moment_transfer(const QuadratureRule& to, const std::vector<double>& from) {
     const auto legendre = [](const std::vector<double>& points, Index count) {
         Eigen::MatrixXd values(static_cast<Index>(points.size()), count);

@@ -10,22 +10,22 @@
 
 namespace endoflow::boundary_integral {
 
-// Coefficients of what lives on the membrane.
+/// Coefficients of what lives on the membrane.
 struct MembraneFlow {
-    Eigen::VectorXd velocity;  // curve_count, nm/us
-    Eigen::VectorXd force;     // force_count, of the membrane on the fluid, pN/nm^2
+    Eigen::VectorXd velocity;  // curve_count, nm/µs
+    Eigen::VectorXd force;     // force_count, of the membrane on the fluid, pN/nm²
 };
 
 class MembraneSources {
   public:
-    // contrast = nu1 - nu2, pN us/nm^2. Space, state and samples must outlive the object.
+    /// contrast = ν₁ - ν₂, pN µs/nm². Space, state and samples must outlive the object.
     MembraneSources(const MembraneSpace& space, const MembraneState& state, const MembraneSamples& samples,
                     const MembraneFlow& flow, double contrast);
 
     void add_to(RingLayers& layers, const Target& target) const;
 
   private:
-    // Neighbouring elements that a distant target sees as few rings: their densities' moments up to a degree are kept.
+    /// Neighbouring elements that a distant target sees as few rings: their densities' moments up to a degree are kept.
     struct Cluster {
         Index first_element, elements;
         Target centre;
@@ -43,9 +43,9 @@ class MembraneSources {
     std::vector<double> lengths_;     // of the elements, nm
     std::vector<Cluster> clusters_;
 
-    RingDensity density(const CurvePoint& p, const BasisRow& radial, const BasisRow& axial, const BasisRow& force,
-                        double weight) const;
-    Cluster cluster(Index first_element, Index elements) const;
+    [[nodiscard]] RingDensity density(const CurvePoint& p, const BasisRow& radial, const BasisRow& axial,
+                                      const BasisRow& force, double weight) const;
+    [[nodiscard]] Cluster cluster(Index first_element, Index elements) const;
     void add_element(RingLayers& layers, const Target& target, Index element) const;
     void add_near_element(RingLayers& layers, const Target& target, Index element, double guess) const;
 };

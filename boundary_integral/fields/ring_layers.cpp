@@ -40,7 +40,7 @@ RingLayers::Sum RingLayers::evaluate() {
         sum.momentum_z += contributions_.momentum_z[i];
         sum.pressure -= contributions_.pressure[i];
     }
-    sum.pressure /= 4.0 * std::numbers::pi;  // Phi = - x / rho^3
+    sum.pressure /= 4.0 * std::numbers::pi;  // Phi = - x / ρ³
     return sum;
 }
 

@@ -9,10 +9,10 @@ namespace endoflow::boundary_integral {
 namespace {
 
 constexpr int near_points = 32;  // per side of the closest point
-// The eight Gauss points of a panel have 1e-8 from 0.7 of its length on: 3.1^-16, 3.1 the ellipse through the target.
+/// The eight Gauss points of a panel have 1e-8 from 0.7 of its length on: 3.1^-16, 3.1 the ellipse through the target.
 constexpr double near_distance = 0.7;  // in panel lengths
 
-// d(i, j): derivative at node i of the Lagrange polynomial of node j.
+/// d(i, j): derivative at node i of the Lagrange polynomial of node j.
 Eigen::MatrixXd differentiation_matrix(const std::vector<double>& nodes) {
     const Index count = static_cast<Index>(nodes.size());
     const auto x = [&](Index i) { return nodes[static_cast<std::size_t>(i)]; };
@@ -68,7 +68,7 @@ RingDensity WallSources::density(const WallSegment& segment, const NodeValues& v
     const double nu = segment.viscosity;
     const double tangent_r = (segment.r_end - segment.r_begin) / segment.length();
     const double tangent_z = (segment.z_end - segment.z_begin) / segment.length();
-    // r ds (n div_Gamma u - (du/ds.n) t)
+    // r ds (n ∇_Γ·u - (du/ds.n) t)
     const double divergence = line * (v.u_r_slope * tangent_r + v.u_z_slope * tangent_z) + weight * speed * v.u_r;
     const double turning = line * (v.u_r_slope * segment.normal_r + v.u_z_slope * segment.normal_z);
     return {0.0,

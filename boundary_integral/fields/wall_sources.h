@@ -11,17 +11,17 @@ namespace endoflow::boundary_integral {
 
 class WallSources {
   public:
-    // `unknowns` as WallPanels numbers them. The walls must outlive the object.
+    /// `unknowns` as WallPanels numbers them. The walls must outlive the object.
     WallSources(const WallPanels& walls, const Eigen::VectorXd& unknowns);
 
     void add_to(RingLayers& layers, const Target& target) const;
 
   private:
-    // What a node carries; everything per d tau.
+    /// What a node carries; everything per dτ.
     struct NodeValues {
-        double u_r = 0.0, u_z = 0.0;              // nm/us
-        double u_r_slope = 0.0, u_z_slope = 0.0;  // d/d tau
-        double traction = 0.0;                    // t_z ds/d tau in the band, pN/nm
+        double u_r = 0.0, u_z = 0.0;              // nm/µs
+        double u_r_slope = 0.0, u_z_slope = 0.0;  // d/dτ
+        double traction = 0.0;                    // t_z ds/dτ in the band, pN/nm
     };
 
     const WallPanels& walls_;
@@ -29,8 +29,8 @@ class WallSources {
     std::vector<NodeValues> nodes_;
     std::vector<ChargedRing> rings_;  // at the nodes
 
-    RingDensity density(const WallSegment& segment, const NodeValues& values, double r, double speed,
-                        double weight) const;
+    [[nodiscard]] RingDensity density(const WallSegment& segment, const NodeValues& values, double r, double speed,
+                                      double weight) const;
     void add_near_panel(RingLayers& layers, const WallPanel& panel, const PanelApproach& approach) const;
 };
 

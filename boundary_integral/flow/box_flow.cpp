@@ -35,8 +35,8 @@ BoxFlow::BoxFlow(const Parameters& parameters, const MembraneSpace& space)
     wall_factors_.emplace(Eigen::MatrixXd(matrix), "wall");
 }
 
-//   4 pi (nu1 + nu2) u + (nu1 - nu2) D u + W v = S f                  on the membrane
-//   (nu1 - nu2) D_w u + A_w v = S_w f                                 on the walls; v is eliminated
+///   4 π (ν₁ + ν₂) u + (ν₁ - ν₂) D u + W v = S f                  on the membrane
+///   (ν₁ - ν₂) D_w u + A_w v = S_w f                                 on the walls; v is eliminated
 MobilityOperators BoxFlow::operators(const MembraneState& state, const MembraneSamples& samples) const {
     const double contrast = collocation_.contrast();
     LayerQuadrature quadrature;

@@ -17,14 +17,15 @@ class BoxFlow : public FlowModel {
   public:
     BoxFlow(const Parameters& parameters, const MembraneSpace& space);
 
-    const WallPanels& walls() const { return walls_; }
+    [[nodiscard]] const WallPanels& walls() const { return walls_; }
 
-    MobilityOperators operators(const MembraneState& state, const MembraneSamples& samples) const override;
+    [[nodiscard]] MobilityOperators operators(const MembraneState& state,
+                                              const MembraneSamples& samples) const override;
 
-    // Wall unknowns (see WallPanels) that go with a solution.
-    Eigen::VectorXd wall_unknowns(const MobilityOperators& operators, const FlowSolution& flow) const;
+    /// Wall unknowns (see WallPanels) that go with a solution.
+    [[nodiscard]] Eigen::VectorXd wall_unknowns(const MobilityOperators& operators, const FlowSolution& flow) const;
 
-    int threads() const { return threads_; }
+    [[nodiscard]] int threads() const { return threads_; }
 
   private:
     MembraneCollocation collocation_;
@@ -34,8 +35,9 @@ class BoxFlow : public FlowModel {
     std::optional<LuFactors> wall_factors_;
 };
 
-// `samples`: the shape that moves with `flow`; that of the operators may be another, close one.
-FlowBalances flow_balances(const MembraneSpace& space, const BoxFlow& box, const MobilityOperators& operators,
-                           const MembraneSamples& samples, const FlowSolution& flow);
+/// `samples`: the shape that moves with `flow`; that of the operators may be another, close one.
+[[nodiscard]] FlowBalances flow_balances(const MembraneSpace& space, const BoxFlow& box,
+                                         const MobilityOperators& operators, const MembraneSamples& samples,
+                                         const FlowSolution& flow);
 
 }  // namespace endoflow::boundary_integral

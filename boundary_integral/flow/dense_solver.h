@@ -10,12 +10,12 @@ namespace endoflow::boundary_integral {
 
 class LuFactors {
   public:
-    // Throws SolverError("singular-matrix") naming `what` when a pivot vanishes or an entry is not finite.
+    /// Throws SolverError("singular-matrix") naming `what` when a pivot vanishes or an entry is not finite.
     LuFactors(Eigen::MatrixXd matrix, const char* what);
 
     void solve_in_place(Eigen::Ref<Eigen::MatrixXd> right_hand_sides) const;
-    Eigen::MatrixXd solve(Eigen::MatrixXd right_hand_sides) const;
-    Eigen::MatrixXd solve_transposed(Eigen::MatrixXd right_hand_sides) const;
+    [[nodiscard]] Eigen::MatrixXd solve(Eigen::MatrixXd right_hand_sides) const;
+    [[nodiscard]] Eigen::MatrixXd solve_transposed(Eigen::MatrixXd right_hand_sides) const;
 
   private:
     Eigen::MatrixXd factors_;

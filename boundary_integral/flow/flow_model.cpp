@@ -67,7 +67,7 @@ FlowSolution FlowModel::solve(const MobilityOperators& operators, const Membrane
                               const Eigen::VectorXd& external) const {
     const VelocityFreedoms& freedoms = operators.freedoms;
     FlowSolution flow;
-    // <f, w> = -dE(w) - int lambda div_Gamma w for all w. Membrane that flows in through the rim is no change of
+    // <f, w> = -dE(w) - ∫ λ ∇_Γ·w for all w. Membrane that flows in through the rim is no change of
     // energy: its tangential motion carries the rim's energy density along, which dE counts as growth.
     Eigen::VectorXd gradient = freedoms.restrict_rows(energy.gradient);
     if (freedoms.inflow) gradient[space_.radial_count() - 1] -= samples.rim_radius * rim_energy_density;

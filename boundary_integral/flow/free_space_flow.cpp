@@ -14,10 +14,10 @@ FreeSpaceFlow::FreeSpaceFlow(const Parameters& parameters, const MembraneSpace& 
 
 namespace {
 
-// A pressure moves nothing and no velocity has a net flux: M q = 0 = q.M up to the quadrature's error, q the gradient
-// of the volume. The pressure is a multiplier of its own, so that it does not matter of which of two close shapes M is;
-// M must then answer it: M <- S M S^T + alpha d d^T, S = 1 - d q^T/(q.d), with d the normal's velocity and any alpha >
-// 0.
+/// A pressure moves nothing and no velocity has a net flux: M q = 0 = q.M up to the quadrature's error, q the gradient
+/// of the volume. The pressure is a multiplier of its own, so that it does not matter of which of two close shapes M
+/// is; M must then answer it: M <- S M S^T + α d d^T, S = 1 - d q^T/(q.d), with d the normal's velocity and any
+/// α > 0.
 void answer_pressure(const Eigen::VectorXd& volume_gradient, MobilityOperators& operators) {
     Eigen::MatrixXd& mobility = operators.mobility;
     const Eigen::VectorXd direction = operators.force_from_load * volume_gradient;

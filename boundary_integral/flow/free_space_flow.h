@@ -10,15 +10,16 @@ class FreeSpaceFlow : public FlowModel {
   public:
     FreeSpaceFlow(const Parameters& parameters, const MembraneSpace& space);
 
-    MobilityOperators operators(const MembraneState& state, const MembraneSamples& samples) const override;
+    [[nodiscard]] MobilityOperators operators(const MembraneState& state,
+                                              const MembraneSamples& samples) const override;
 
   private:
     MembraneCollocation collocation_;
     int threads_;
 };
 
-// `samples`: the shape that moves with `flow`; that of the operators may be another, close one.
-FlowBalances flow_balances(const MembraneSpace& space, const MobilityOperators& operators,
-                           const MembraneSamples& samples, const FlowSolution& flow);
+/// `samples`: the shape that moves with `flow`; that of the operators may be another, close one.
+[[nodiscard]] FlowBalances flow_balances(const MembraneSpace& space, const MobilityOperators& operators,
+                                         const MembraneSamples& samples, const FlowSolution& flow);
 
 }  // namespace endoflow::boundary_integral

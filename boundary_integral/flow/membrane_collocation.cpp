@@ -41,7 +41,7 @@ Index MembraneCollocation::rows() const {
     return static_cast<Index>(space_.radial_targets.size() + space_.axial_targets.size());
 }
 
-// Both lists come from the same Greville points except at the ends: merge equal parameters.
+/// Both lists come from the same Greville points except at the ends: merge equal parameters.
 void MembraneCollocation::merge_targets() {
     constexpr double slack = 1e-12;
     const auto& radial = space_.radial_targets;

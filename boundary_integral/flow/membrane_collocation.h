@@ -1,7 +1,7 @@
 #pragma once
 
 // The membrane's own part of the velocity equation, collocated at the Greville points:
-//     4 pi (nu1 + nu2) u + (nu1 - nu2) D u = S f
+//     4 π (ν₁ + ν₂) u + (ν₁ - ν₂) D u = S f
 
 #include <vector>
 
@@ -15,19 +15,20 @@ class MembraneCollocation {
   public:
     MembraneCollocation(const MembraneSpace& space, const FluidParameters& fluid);
 
-    Index rows() const;
-    double contrast() const { return viscosity_below_ - viscosity_above_; }
+    [[nodiscard]] Index rows() const;
+    [[nodiscard]] double contrast() const { return viscosity_below_ - viscosity_above_; }
 
-    std::vector<MembraneTarget> targets(const MembraneState& state) const;
+    [[nodiscard]] std::vector<MembraneTarget> targets(const MembraneState& state) const;
 
     struct Equation {
         Eigen::MatrixXd velocity;  // rows x curve_count
         Eigen::MatrixXd force;     // rows x force_count
     };
-    Equation equation(const MembraneState& state, const MembraneSamples& samples,
-                      const std::vector<MembraneTarget>& targets, const LayerQuadrature& quadrature) const;
+    [[nodiscard]] Equation equation(const MembraneState& state, const MembraneSamples& samples,
+                                    const std::vector<MembraneTarget>& targets,
+                                    const LayerQuadrature& quadrature) const;
 
-    // velocity u = force f, restricted to the freedoms and with f from a load: fills force_from_load and mobility.
+    /// velocity u = force f, restricted to the freedoms and with f from a load: fills force_from_load and mobility.
     void solve(const Equation& equation, MobilityOperators& operators) const;
 
   private:

@@ -4,12 +4,13 @@
 
 namespace endoflow::boundary_integral {
 
-// Integrals of a solution over the membrane, without the 2 pi of the azimuth.
+/// Integrals of a solution over the membrane, without the 2π of the azimuth.
 struct MembraneFluxes {
     double force = 0.0, force_modulus = 0.0;       // of f_z and |f_z|, pN
-    double volume = 0.0, volume_modulus = 0.0;     // of u.n and |u.n|, nm^3/us
-    double area_growth = 0.0, area_modulus = 0.0;  // of div_Gamma u and |kappa u.n|, nm^2/us
+    double volume = 0.0, volume_modulus = 0.0;     // of u.n and |u.n|, nm³/µs
+    double area_growth = 0.0, area_modulus = 0.0;  // of ∇_Γ·u and |κ u.n|, nm²/µs
 };
-MembraneFluxes membrane_fluxes(const MembraneSpace& space, const MembraneSamples& samples, const FlowSolution& flow);
+[[nodiscard]] MembraneFluxes membrane_fluxes(const MembraneSpace& space, const MembraneSamples& samples,
+                                             const FlowSolution& flow);
 
 }  // namespace endoflow::boundary_integral

@@ -6,7 +6,7 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
-// int (w A w') dA between velocities (curve_count), A the projection on the normal or the unit matrix.
+/// ∫ (w A w') dA between velocities (curve_count), A the projection on the normal or the unit matrix.
 enum class Metric { all, normal };
 
 Eigen::MatrixXd metric_matrix(const MembraneSpace& space, const MembraneSamples& samples, Metric metric) {

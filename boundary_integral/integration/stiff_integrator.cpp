@@ -137,7 +137,7 @@ StartingPoint StiffIntegrator::start_anew() {
     return start;
 }
 
-// h with ½ h² |y''| = ¼ in units of the tolerance, y'' from the interpolant.
+/// h with ½ h² |y''| = ¼ in units of the tolerance, y'' from the interpolant.
 double StiffIntegrator::first_step() const {
     if (last_order_ < 2) return last_step_;
     const Eigen::VectorXd scaled = derivative(time_, 2).cwiseQuotient(problem_.error_scales);

@@ -44,7 +44,7 @@ class StiffIntegrator {
 
     /// Forgets all history: goes on at order 1, with a first step whose error is a quarter of the tolerance.
     /// Returns where from.
-    StartingPoint start_anew();
+    [[nodiscard]] StartingPoint start_anew();
 
     [[nodiscard]] double time() const { return time_; }
     [[nodiscard]] Eigen::VectorXd state() const { return values_of(y_.get()); }
@@ -84,9 +84,9 @@ class StiffIntegrator {
     [[nodiscard]] double first_step() const;
     [[nodiscard]] Eigen::VectorXd derivative(double time, int order) const;
     template <class Work>
-    int guarded(const Work& work);
-    int rate(double time, N_Vector y, N_Vector rate);
-    int jacobian(N_Vector y, SUNMatrix matrix);
+    [[nodiscard]] int guarded(const Work& work);
+    [[nodiscard]] int rate(double time, N_Vector y, N_Vector rate);
+    [[nodiscard]] int jacobian(N_Vector y, SUNMatrix matrix);
 };
 
 }  // namespace endoflow::boundary_integral

@@ -9,7 +9,7 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
-// Six steps of the mean reach round-off for 1 - m > 1e-13, seven for every positive double above 1e-26.
+/// Six steps of the mean reach round-off for 1 - m > 1e-13, seven for every positive double above 1e-26.
 constexpr int mean_steps = 7;
 
 __attribute__((always_inline)) inline EllipticIntegrals integrals_by_mean(double complementary_parameter) {
@@ -63,8 +63,8 @@ struct KernelPoint {
     double g_rr, g_rz, g_zr, g_zz, t_rr, t_rz, t_zr, t_zz, p_r, p_z;
 };
 
-// One source of radius r at (d, z) from the target, offset n0 = n.x. x.e_r = d + 2 r0 sigma and x.e_z = z, e_r that of
-// the source.
+/// One source of radius r at (d, z) from the target, offset n0 = n.x. x.e_r = d + 2 r0 σ and x.e_z = z, e_r that of
+/// the source.
 __attribute__((always_inline)) inline KernelPoint kernels_at(double r0, double r, double d, double z, double nr,
                                                              double n0) {
     const double q = 2.0 * r0;
@@ -91,7 +91,7 @@ __attribute__((always_inline)) inline KernelPoint kernels_at(double r0, double r
     const double i51 = third * inverse_total * (2.0 * elliptic.e - elliptic.b);
     const double b_i52 = i31 - a * i51;                      // b * i52
     const double q_b_i53 = (b_i32 - a * b_i52) / (2.0 * r);  // 2 r0 b * i53
-    const double n1 = q * nr;                                // x.n = n0 + n1 sigma
+    const double n1 = q * nr;                                // x.n = n0 + n1 σ
     const double t_common = z * (d * (n0 * i50 + n1 * i51));
     kernels.t_zz = -6.0 * z * z * (n0 * i50 + n1 * i51);
     kernels.t_zr = -6.0 * (t_common + z * (q * n0 * i51 + nr * (r0 / r) * b_i52));
@@ -120,7 +120,7 @@ void full_loop(double r0, std::size_t count, const double* __restrict r, const d
     }
 }
 
-// What a source of the given densities adds to 8 pi nu u and to the pressure: one value each.
+/// What a source of the given densities adds to 8 π ν u and to the pressure: one value each.
 ENDOFLOW_VECTOR_CLONES
 void layer_loop(double r0, std::size_t count, const double* __restrict r, const double* __restrict dr,
                 const double* __restrict dz, const double* __restrict nr, const double* __restrict offset,

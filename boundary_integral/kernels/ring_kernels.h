@@ -1,11 +1,11 @@
 #pragma once
 
 // Azimuthally integrated ("ring") kernels of Stokes flow: the free-space Stokeslet G and stresslet T of a source ring
-// seen from one point. With x = source - target, rho = |x|:
-//     G_ij = delta_ij / rho + x_i x_j / rho^3,        T_ijk = -6 x_i x_j x_k / rho^5                       (Pozrikidis
+// seen from one point. With x = source - target, ρ = |x|:
+//     G_ij = δ_ij / ρ + x_i x_j / ρ³,        T_ijk = -6 x_i x_j x_k / ρ⁵                       (Pozrikidis
 //     1992)
-// and the azimuthal integral over the source angle phi in (0, 2 pi). Only sigma = sin^2(phi/2) appears:
-//     rho^2 = a + b sigma,  a = (r - r0)^2 + (z - z0)^2,  b = 4 r r0,
+// and the azimuthal integral over the source angle φ in (0, 2π). Only σ = sin²(φ/2) appears:
+//     ρ² = a + b σ,  a = (r - r0)^2 + (z - z0)^2,  b = 4 r r0,
 // so that nothing cancels when source and target approach each other.
 
 #include <cstddef>
@@ -13,9 +13,9 @@
 
 namespace endoflow::boundary_integral {
 
-// Source points of one target, structure of arrays; every vector has the same length. Differences to the target are
-// inputs, so a caller who knows them to full relative accuracy (same element of a polynomial curve) keeps that
-// accuracy.
+/// Source points of one target, structure of arrays; every vector has the same length. Differences to the target are
+/// inputs, so a caller who knows them to full relative accuracy (same element of a polynomial curve) keeps that
+/// accuracy.
 struct RingSources {
     std::vector<double> radius;         // r of the source, > 0 [nm]
     std::vector<double> delta_r;        // r - r0 [nm]
@@ -24,30 +24,30 @@ struct RingSources {
     std::vector<double> normal_offset;  // n_r (r - r0) + n_z (z - z0) [nm]
 
     void resize(std::size_t count);
-    std::size_t size() const { return radius.size(); }
+    [[nodiscard]] std::size_t size() const { return radius.size(); }
 };
 
-// Kernel values, one entry per source. The first letter is the component at the target, the second that of the density.
-// The surface measure r ds is NOT included.
+/// Kernel values, one entry per source. The first letter is the component at the target, the second that of the
+/// density. The surface measure r ds is NOT included.
 struct RingKernels {
     std::vector<double> g_rr, g_rz, g_zr, g_zz;  // single layer [1/nm]
-    std::vector<double> t_rr, t_rz, t_zr, t_zz;  // double layer T_ijk n_k [1/nm^2]
+    std::vector<double> t_rr, t_rz, t_zr, t_zz;  // double layer T_ijk n_k [1/nm²]
 
     void resize(std::size_t count);
 };
 
-// Complete elliptic integrals from one arithmetic-geometric mean, all free of cancellation as m -> 0:
-//     K, E, D = (K - E)/m, B = (E - (1-m) K)/m = K - D.  Argument: the complementary parameter 1 - m in (0, 1].
+/// Complete elliptic integrals from one arithmetic-geometric mean, all free of cancellation as m -> 0:
+///     K, E, D = (K - E)/m, B = (E - (1-m) K)/m = K - D.  Argument: the complementary parameter 1 - m in (0, 1].
 struct EllipticIntegrals {
     double k, e, d, b;
 };
-EllipticIntegrals elliptic_integrals(double complementary_parameter);
+[[nodiscard]] EllipticIntegrals elliptic_integrals(double complementary_parameter);
 
-// All eight kernels for one target radius r0 >= 0 (the axis r0 = 0 needs no special case).
+/// All eight kernels for one target radius r0 ≥ 0 (the axis r0 = 0 needs no special case).
 void evaluate_ring_kernels(double target_radius, const RingSources& sources, RingKernels& kernels);
 
 /// Densities of layers at the sources, times the measure r ds: f of the single layer, u of the double layer, q of the
-/// pressure's kernel x / rho^3 (source's frame).
+/// pressure's kernel x / ρ³ (source's frame).
 struct RingDensities {
     std::vector<double> force_r, force_z;        // pN
     std::vector<double> momentum_r, momentum_z;  // pN nm
@@ -56,7 +56,7 @@ struct RingDensities {
     void resize(std::size_t count);
 };
 
-/// What each source adds: G f - (T.n) u by component [pN/nm], and int x.q / rho^3 dphi [pN/nm^2].
+/// What each source adds: G f - (T.n) u by component [pN/nm], and ∫ x.q / ρ³ dφ [pN/nm²].
 struct RingContributions {
     std::vector<double> momentum_r, momentum_z, pressure;
 };
@@ -65,7 +65,7 @@ struct RingContributions {
 void evaluate_ring_layers(double target_radius, std::size_t count, const RingSources& sources,
                           const RingDensities& densities, RingContributions& contributions);
 
-// The four single-layer kernels alone.
+/// The four single-layer kernels alone.
 void evaluate_ring_stokeslets(double target_radius, const RingSources& sources, RingKernels& kernels);
 
 }  // namespace endoflow::boundary_integral

@@ -9,7 +9,7 @@
 
 namespace endoflow::boundary_integral {
 
-// What the energy depends on at one point: the curve's derivatives, which alone make its geometry, then c and c'.
+/// What the energy depends on at one point: the curve's derivatives, which alone make its geometry, then c and c'.
 enum Variable : std::size_t { var_r, var_r1, var_r2, var_z1, var_z2, var_c, var_c1, variable_count };
 constexpr std::size_t curve_variables = 5;
 using CurveJet = Jet<curve_variables>;
@@ -17,8 +17,8 @@ using CurveDual = Dual<curve_variables>;
 using EnergyJet = Jet<variable_count>;
 using EnergyDual = Dual<variable_count>;
 
-// kappa = -(r' z'' - z' r'')/g^3 - z'/(r g), 1/g^2 and r g: what the energy per d xi, e(kappa, c, c'^2/g^2) r g, has of
-// the curve. `Number` has at least the curve's variables.
+/// κ = -(r' z'' - z' r'')/g³ - z'/(r g), 1/g² and r g: what the energy per dξ, e(κ, c, c'²/g²) r g, has of
+/// the curve. `Number` has at least the curve's variables.
 template <class Number>
 [[nodiscard]] std::array<Number, 3> geometry(const CurvePoint& p) {
     const Number r1 = Number::variable(p.r1, var_r1), z1 = Number::variable(p.z1, var_z1);
@@ -30,7 +30,7 @@ template <class Number>
 
 using Direction = std::array<double, variable_count>;
 
-// One basis function seen by the variables it moves: three of them from `first` on.
+/// One basis function seen by the variables it moves: three of them from `first` on.
 struct Slot {
     Index row;  // coefficient index in (r, z) or in c
     std::size_t first;

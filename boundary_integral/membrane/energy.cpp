@@ -13,13 +13,13 @@ CurveJet volume_jet(const CurvePoint& p) {
     return -0.5 * (r * r * CurveJet::variable(p.z1, var_z1));
 }
 
-// Area per d xi, r g.
+/// Area per dξ, r g.
 CurveJet area_jet(const CurvePoint& p) {
     const CurveJet r1 = CurveJet::variable(p.r1, var_r1), z1 = CurveJet::variable(p.z1, var_z1);
     return CurveJet::variable(p.r, var_r) * sqrt(r1 * r1 + z1 * z1);
 }
 
-// e(kappa, c, c'^2 w) A as a function of kappa, w, A, c, c'.
+/// e(κ, c, c'² w) A as a function of κ, w, A, c, c'.
 Jet<5> density_of_geometry(const MembraneEnergy& energy, double kappa, double w, double area, double c, double c1) {
     using Outer = Jet<5>;
     const Outer slope = Outer::variable(c1, 4);
@@ -28,7 +28,7 @@ Jet<5> density_of_geometry(const MembraneEnergy& energy, double kappa, double w,
     return compose(energy.density(kappa, c, c1 * c1 * w), at) * Outer::variable(area, 2);
 }
 
-// A function of the three numbers of the geometry and of c, c', as one of all variables: to first order,
+/// A function of the three numbers of the geometry and of c, c', as one of all variables: to first order,
 EnergyDual in_all_variables(const Jet<5>& f, const std::array<CurveDual, 3>& geometry) {
     EnergyDual y(f.value);
     for (std::size_t a = 0; a < 3; ++a)
@@ -37,7 +37,7 @@ EnergyDual in_all_variables(const Jet<5>& f, const std::array<CurveDual, 3>& geo
     return y;
 }
 
-// and to second.
+/// and to second.
 EnergyJet in_all_variables(const Jet<5>& f, const std::array<CurveJet, 3>& geometry) {
     EnergyJet y(f.value);
     for (std::size_t a = 0; a < 3; ++a) {
@@ -60,13 +60,13 @@ EnergyJet in_all_variables(const Jet<5>& f, const std::array<CurveJet, 3>& geome
     return y;
 }
 
-// Energy per d xi over 2 pi. `Number` is CurveJet or CurveDual.
+/// Energy per dξ over 2π. `Number` is CurveJet or CurveDual.
 template <class Number>
 auto energy_per_length(const MembraneEnergy& energy, const std::array<Number, 3>& g, double c, double c1) {
     return in_all_variables(density_of_geometry(energy, g[0].value, g[1].value, g[2].value, c, c1), g);
 }
 
-// Adds factor times a function of the curve alone.
+/// Adds factor times a function of the curve alone.
 void add_of_curve(EnergyJet& sum, double factor, const CurveJet& x) {
     for (std::size_t i = 0; i < curve_variables; ++i)
         for (std::size_t j = 0; j < curve_variables; ++j) sum.second[i][j] += factor * x.second[i][j];
@@ -78,7 +78,7 @@ Direction hessian_times(const EnergyJet& jet, const Slot& slot) {
     return result;
 }
 
-// The Hessian of a function of the curve alone.
+/// The Hessian of a function of the curve alone.
 Direction hessian_times(const CurveJet& jet, const std::array<double, curve_variables>& direction) {
     Direction result{};
     for (std::size_t i = 0; i < curve_variables; ++i)
@@ -98,7 +98,7 @@ void add_second_derivatives(const EnergyJet& jet, double weight, const LocalSlot
     }
 }
 
-// One Gauss point's part of energy and gradients.
+/// One Gauss point's part of energy and gradients.
 template <class Number>
 void add_first_derivatives(const Number& density, double weight, const LocalSlots& slots, EnergyDerivatives& result) {
     result.energy += weight * density.value;

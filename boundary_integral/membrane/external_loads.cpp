@@ -11,7 +11,7 @@ namespace {
 
 using LabelJet = Jet<1>;
 
-// Integrals over the interpolation polynomials from -1 to the nodes: (i, j) = int_{-1}^{x_i} L_j.
+/// Integrals over the interpolation polynomials from -1 to the nodes: (i, j) = ∫_{-1}^{x_i} L_j.
 Eigen::MatrixXd partial_integrals(const QuadratureRule& rule) {
     const auto count = static_cast<Index>(rule.nodes.size());
     const auto node = [&](Index i) { return rule.nodes[static_cast<std::size_t>(i)]; };
@@ -31,7 +31,7 @@ Eigen::MatrixXd partial_integrals(const QuadratureRule& rule) {
     return result;
 }
 
-// int_0^xi of functions given by their values at the Gauss points, at these points; a column is a function.
+/// ∫_0^ξ of functions given by their values at the Gauss points, at these points; a column is a function.
 Eigen::MatrixXd running_integral(const MembraneSpace& space, const Eigen::MatrixXd& values) {
     const Index q = space.points_per_element();
     const Eigen::MatrixXd within = 0.5 * space.element_width() * partial_integrals(gauss_legendre(static_cast<int>(q)));
@@ -44,7 +44,7 @@ Eigen::MatrixXd running_integral(const MembraneSpace& space, const Eigen::Matrix
     return result;
 }
 
-// The pole force's part per area at the Gauss points [1/nm^2] and its derivative by the area from the pole.
+/// The pole force's part per area at the Gauss points [1/nm²] and its derivative by the area from the pole.
 std::vector<LabelJet> force_shares(const MembraneSpace& space, const MembraneSamples& samples, const Loads& loads) {
     Eigen::VectorXd density(space.points());
     for (Index i = 0; i < space.points(); ++i) {

@@ -7,7 +7,7 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
-// In lengths of an element: from here on the closest Gauss point serves as the closest point.
+/// In lengths of an element: from here on the closest Gauss point serves as the closest point.
 constexpr double far = 2.0;
 
 }  // namespace

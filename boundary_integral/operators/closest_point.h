@@ -7,20 +7,20 @@
 
 namespace endoflow::boundary_integral {
 
-double squared_distance(const CurvePoint& p, const Target& target);  // nm^2
+[[nodiscard]] double squared_distance(const CurvePoint& p, const Target& target);  // nm²
 
 struct ClosestPoint {
     double xi;
     CurvePoint point;
 };
 
-// Closest point of one element by Newton's method from a guess in it, e.g. its closest Gauss point.
-ClosestPoint closest_on_element(const MembraneSpace& space, const MembraneState& state, Index element,
-                                const Target& target, double guess);
+/// Closest point of one element by Newton's method from a guess in it, e.g. its closest Gauss point.
+[[nodiscard]] ClosestPoint closest_on_element(const MembraneSpace& space, const MembraneState& state, Index element,
+                                              const Target& target, double guess);
 
-// Closest point of the whole membrane; the Gauss points tell the element. Of a target more than two lengths of an
-// element away, the closest Gauss point: it tells the side.
-ClosestPoint closest_on_membrane(const MembraneSpace& space, const MembraneState& state, const MembraneSamples& samples,
-                                 const Target& target);
+/// Closest point of the whole membrane; the Gauss points tell the element. Of a target more than two lengths of an
+/// element away, the closest Gauss point: it tells the side.
+[[nodiscard]] ClosestPoint closest_on_membrane(const MembraneSpace& space, const MembraneState& state,
+                                               const MembraneSamples& samples, const Target& target);
 
 }  // namespace endoflow::boundary_integral

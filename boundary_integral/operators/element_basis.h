@@ -11,16 +11,16 @@
 
 namespace endoflow::boundary_integral {
 
-// Values of one spline space at points of one or several elements.
+/// Values of one spline space at points of one or several elements.
 class BasisTable {
   public:
     void clear();
-    // The points of one element must follow each other; the first one of an element gives the functions' indices.
+    /// The points of one element must follow each other; the first one of an element gives the functions' indices.
     void begin_element(const BasisRow& row);
     void add(const BasisRow& row);
 
-    const double* values() const { return values_.data(); }
-    // row[index of function j] += sums[j]
+    [[nodiscard]] const double* values() const { return values_.data(); }
+    /// row[index of function j] += sums[j]
     void scatter(std::size_t element, const double* sums, double* row) const;
 
   private:
@@ -39,8 +39,8 @@ struct ElementBasis {
     void add(const BasisRow& radial_row, const BasisRow& axial_row, const BasisRow& force_row, bool first_of_element);
 };
 
-// Everything about the quadrature over the elements that hold a target of fixed parameter: it does not change as the
-// membrane moves.
+/// Everything about the quadrature over the elements that hold a target of fixed parameter: it does not change as the
+/// membrane moves.
 struct OwnElement {
     Index element = 0;
     OffsetRule rule;
@@ -49,6 +49,6 @@ struct OwnElement {
 };
 using OwnElements = std::vector<OwnElement>;
 
-OwnElements own_elements(const MembraneSpace& space, double xi, const QuadratureRule& base);
+[[nodiscard]] OwnElements own_elements(const MembraneSpace& space, double xi, const QuadratureRule& base);
 
 }  // namespace endoflow::boundary_integral

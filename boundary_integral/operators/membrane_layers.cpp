@@ -17,7 +17,7 @@ std::size_t at(Index i) {
     return static_cast<std::size_t>(i);
 }
 
-// What all targets share.
+/// What all targets share.
 struct Sources {
     const MembraneSpace& space;
     const MembraneState& state;
@@ -140,7 +140,7 @@ class Builder {
         deposit(target.rows, 1, extra_measure_, basis);
     }
 
-    // The target lies in these elements: differences from the Taylor polynomial about it.
+    /// The target lies in these elements: differences from the Taylor polynomial about it.
     void add_own_elements(const MembraneTarget& target, const OwnElements& elements) {
         for (const OwnElement& own : elements) {
             start_extra();
@@ -178,7 +178,7 @@ class Builder {
         finish_extra(target, extra_basis_);
     }
 
-    // Adds the kernels at all points of `elements` elements to the target's rows.
+    /// Adds the kernels at all points of `elements` elements to the target's rows.
     void deposit(const TargetRows& rows, std::size_t elements, const std::vector<double>& measure,
                  const ElementBasis& basis) {
         const std::size_t points = measure.size() / elements;

@@ -1,7 +1,7 @@
 #pragma once
 
 // Single and double layer of the membrane as matrices that map spline coefficients to values at targets:
-//     single(x0) = int_Gamma f.G dS,    doubled(x0) = PV int_Gamma u.T.n dS.
+//     single(x0) = ∫_Gamma f.G dS,    doubled(x0) = PV ∫_Gamma u.T.n dS.
 
 #include <vector>
 
@@ -15,7 +15,7 @@ struct MembraneTarget {
     Target at;
     TargetRows rows;
     double xi = -1.0;                  // parameter when the target lies on the membrane, -1 otherwise
-    const OwnElements* own = nullptr;  // own_elements of xi, when they are at hand
+    const OwnElements* own = nullptr;  // own_elements of ξ, when they are at hand
 };
 
 struct MembraneLayers {
@@ -30,8 +30,8 @@ struct LayerQuadrature {
     double near_distance = 0.7;  // in element lengths; there 8 Gauss points miss 3e-11 of a logarithm
 };
 
-MembraneLayers membrane_layers(const MembraneSpace& space, const MembraneState& state, const MembraneSamples& samples,
-                               const std::vector<MembraneTarget>& targets, Index rows,
-                               const LayerQuadrature& quadrature);
+[[nodiscard]] MembraneLayers membrane_layers(const MembraneSpace& space, const MembraneState& state,
+                                             const MembraneSamples& samples, const std::vector<MembraneTarget>& targets,
+                                             Index rows, const LayerQuadrature& quadrature);
 
 }  // namespace endoflow::boundary_integral

@@ -25,7 +25,7 @@ SplineSpace::SplineSpace(int degree, std::vector<double> breakpoints, Parity par
     }
 }
 
-// Raw function i is mirrored about the axis into p - 1 - i, and likewise about a mirrored end.
+/// Raw function i is mirrored about the axis into p - 1 - i, and likewise about a mirrored end.
 double SplineSpace::fold(Index raw, Index& folded) const {
     const double sign_of_mirror = parity_ == Parity::odd ? -1.0 : 1.0;
     const bool odd_degree = degree_ % 2 == 1;
@@ -50,7 +50,7 @@ Index SplineSpace::element_of(double xi) const {
     return std::clamp<Index>(element, 0, static_cast<Index>(breakpoints_.size()) - 2);
 }
 
-// Algorithm A2.3 of Piegl & Tiller, "The NURBS Book".
+/// Algorithm A2.3 of Piegl & Tiller, "The NURBS Book".
 void SplineSpace::raw_basis(double xi, Index element, int highest, std::array<std::array<double, 6>, 6>& values) const {
     const Index span = element + degree_;
     const int p = degree_;

@@ -9,14 +9,14 @@
 
 namespace endoflow::boundary_integral {
 
-// boundary_integral.threads: 0 means all the machine has.
-inline int thread_count(int wanted) {
+/// boundary_integral.threads: 0 means all the machine has.
+[[nodiscard]] inline int thread_count(int wanted) {
     return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-// Calls body(begin, end) on `threads` contiguous parts of [0, count), each in its own thread; rethrows the first
-// exception. The parts must not write to the same places. Starting a thread costs some 20 us: for work of a millisecond
-// and more.
+/// Calls body(begin, end) on `threads` contiguous parts of [0, count), each in its own thread; rethrows the first
+/// exception. The parts must not write to the same places. Starting a thread costs some 20 µs: for work of a
+/// millisecond and more.
 template <class Body>
 void parallel_parts(Index count, int threads, const Body& body) {
     const Index parts = std::clamp<Index>(threads, 1, std::max<Index>(count, 1));

@@ -20,7 +20,7 @@ double mass(const MembraneSpace& space, const MembraneSamples& samples) {
     return two_pi * sum;
 }
 
-// j A with its derivatives, A = r g.
+/// j A with its derivatives, A = r g.
 ExchangeDual rate_per_length(const CurvePoint& p, double c, double m, const ExchangeLaw& law,
                              const MembraneEnergy& bending) {
     const auto [curvature, inverse, area] = geometry<ExchangeDual>(p);

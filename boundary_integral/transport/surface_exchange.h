@@ -1,7 +1,7 @@
 #pragma once
 
-// Molecules that come onto the membrane and leave it: d(m_k)/dt = int phi_k j dA, j(c, de/dc, m) the exchange law's,
-// m = 2 pi sum(m_k) the mass of all there are.
+// Molecules that come onto the membrane and leave it: d(m_k)/dt = ∫ φ_k j dA, j(c, de/dc, m) the exchange law's,
+// m = 2π Σ_k m_k the mass of all there are.
 
 #include <Eigen/Core>
 
@@ -11,15 +11,15 @@
 
 namespace endoflow::boundary_integral {
 
-// d(m)/dt by exchange, axial_count, nm^2/us per 2 pi. `bending` gives de/dc.
-Eigen::VectorXd exchange_rate(const MembraneSpace& space, const MembraneSamples& samples, const ExchangeLaw& law,
-                              const MembraneEnergy& bending);
+/// d(m)/dt by exchange, axial_count, nm²/µs per 2π. `bending` gives de/dc.
+[[nodiscard]] Eigen::VectorXd exchange_rate(const MembraneSpace& space, const MembraneSamples& samples,
+                                            const ExchangeLaw& law, const MembraneEnergy& bending);
 
 struct ExchangeDerivatives {
     Eigen::MatrixXd from_c;      // d rate/dc at fixed curve, axial_count x axial_count
     Eigen::MatrixXd from_curve;  // d rate/d(curve) at fixed c, axial_count x curve_count
 };
-ExchangeDerivatives exchange_derivatives(const MembraneSpace& space, const MembraneSamples& samples,
-                                         const ExchangeLaw& law, const MembraneEnergy& bending);
+[[nodiscard]] ExchangeDerivatives exchange_derivatives(const MembraneSpace& space, const MembraneSamples& samples,
+                                                       const ExchangeLaw& law, const MembraneEnergy& bending);
 
 }  // namespace endoflow::boundary_integral

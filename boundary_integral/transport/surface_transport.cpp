@@ -4,7 +4,7 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
-// sum over points of weight(i) * phi_a^(da) phi_b^(db)
+/// Sum over points of weight(i) * φ_a^(da) φ_b^(db)
 template <class Weight>
 Eigen::MatrixXd assemble(const MembraneSpace& space, std::size_t da, std::size_t db, Weight weight) {
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(space.axial_count(), space.axial_count());
@@ -31,7 +31,7 @@ Eigen::VectorXd assemble_vector(const MembraneSpace& space, std::size_t derivati
     return vector;
 }
 
-// sum over points of  phi^(d) [ from_r delta r + from_r1 delta r' + from_z1 delta z' ]
+/// Sum over points of  φ^(d) [ from_r δr + from_r1 δr' + from_z1 δz' ]
 struct PointVariation {
     double r, r1, z1;
 };
@@ -54,7 +54,7 @@ Eigen::MatrixXd assemble_variation(const MembraneSpace& space, std::size_t deriv
     return matrix;
 }
 
-// delta(r g) and delta(r/g), times a factor
+/// δ(r g) and δ(r/g), times a factor
 PointVariation area_variation(const CurvePoint& p, double factor) {
     return {factor * p.g, factor * p.r * p.r1 / p.g, factor * p.r * p.z1 / p.g};
 }
@@ -63,7 +63,7 @@ PointVariation conductance_variation(const CurvePoint& p, double factor) {
     return {factor / p.g, -factor * p.r * p.r1 / cubed, -factor * p.r * p.z1 / cubed};
 }
 
-// mu of a law with an edge width, weakly: M mu = k K c + int p(c) phi dA, or d(E + E_c)/dc
+/// μ of a law with an edge width, weakly: M μ = k K c + ∫ p(c) φ dA, or d(E + E_c)/dc
 Eigen::VectorXd chemical_potential(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& c,
                                    const TransportLaw& law, const EnergyDerivatives& energy, const LuFactors& mass,
                                    const Eigen::MatrixXd& stiffness) {
@@ -75,7 +75,7 @@ Eigen::VectorXd chemical_potential(const MembraneSpace& space, const MembraneSam
     return mass.solve(weak);
 }
 
-// Of k K c + int p(c) phi dA.
+/// Of k K c + ∫ p(c) φ dA.
 struct WeakVariation {
     Eigen::MatrixXd from_c, from_curve;
 };
@@ -93,7 +93,7 @@ WeakVariation law_potential_variation(const MembraneSpace& space, const Membrane
     return result;
 }
 
-// int (r/g) p'(c) phi_i' phi_j' dxi: diffusion of second order
+/// ∫ (r/g) p'(c) φ_i' φ_j' dξ: diffusion of second order
 Eigen::MatrixXd diffusion_matrix(const MembraneSpace& space, const MembraneSamples& samples, const TransportLaw& law) {
     return assemble(space, 1, 1, [&](std::size_t i) {
         return samples.curve[i].r / samples.curve[i].g * law.potential(samples.c[i]).first;

@@ -6,8 +6,8 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
-// The wall-wall block is built once and decides the balance of forces (1e-13): it gets the finer rule. Targets on the
-// moving membrane see the walls through the coarser one.
+/// The wall-wall block is built once and decides the balance of forces (1e-13): it gets the finer rule. Targets on the
+/// moving membrane see the walls through the coarser one.
 constexpr int wall_points = 40;
 constexpr int membrane_points = 32;
 
@@ -15,11 +15,11 @@ std::size_t at(Index i) {
     return static_cast<std::size_t>(i);
 }
 
-// A quadrature point on a panel: either one of its nodes or an extra point with interpolation weights.
+/// A quadrature point on a panel: either one of its nodes or an extra point with interpolation weights.
 struct PanelPoint {
     double tau;
     double fraction_offset;  // fraction - fraction(target) when both lie on one segment
-    double weight;           // d tau
+    double weight;           // dτ
 };
 
 class Builder {
@@ -49,8 +49,8 @@ class Builder {
         }
     }
 
-    // Differences source - target on straight segments; the normal offset is constant, exactly zero on the target's own
-    // line.
+    /// Differences source - target on straight segments; the normal offset is constant, exactly zero on the target's
+    /// own line.
     void push(const WallTarget& target, const WallSegment& segment, double fraction, double fraction_offset,
               bool same) {
         const double dr = segment.r_end - segment.r_begin;
@@ -110,7 +110,7 @@ class Builder {
         }
     }
 
-    // area = r ds, line = r d tau: the band's unknown t_z ds/d tau carries its own Jacobian.
+    /// area = r ds, line = r dτ: the band's unknown t_z ds/dτ carries its own Jacobian.
     void deposit(const WallTarget& target, const WallSegment& segment, Index node, std::size_t i, double area,
                  double line) {
         const auto into = [&](Index row, double t_r, double t_z, double g_z) {

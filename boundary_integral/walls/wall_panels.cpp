@@ -84,7 +84,7 @@ PanelApproach WallPanels::approach(const WallPanel& panel, const Target& target)
                      ? std::acos(std::clamp(1.0 - 2.0 * fraction, -1.0, 1.0)) / std::acos(-1.0)
                      : std::asin(std::clamp(fraction, 0.0, 1.0)) / std::acos(0.0);
     tau = std::clamp(tau, panel.tau_begin, panel.tau_end);
-    // Where the map is stationary the width in tau is that of its quadratic part: whichever is smaller.
+    // Where the map is stationary the width in τ is that of its quadratic part: whichever is smaller.
     const double speed = length * segment.fraction_rate(tau);
     const double curvature = length * std::acos(-1.0) * std::acos(-1.0) * 0.25;
     const double width = 1.0 / (speed / distance + std::sqrt(curvature / distance));

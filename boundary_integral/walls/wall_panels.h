@@ -16,22 +16,22 @@ namespace endoflow::boundary_integral {
 enum class WallKind { free, band };  // stress-free; pin band with u_z = 0 and t_r = 0
 enum class Clustering { end, both_ends };
 
-// Straight segment from (r_begin, z_begin) to (r_end, z_end), parametrised by tau in [0, 1] so that nodes crowd at the
-// ends: the fraction of the length is sin^2(pi tau/2) (both ends) or sin(pi tau/2) (the end). Traction ~
-// distance^(-1/2) at a band edge and velocity ~ distance^(1/2) beside it become smooth in tau.
+/// Straight segment from (r_begin, z_begin) to (r_end, z_end), parametrised by τ in [0, 1] so that nodes crowd at the
+/// ends: the fraction of the length is sin²(π τ/2) (both ends) or sin(π τ/2) (the end). Traction ~
+/// distance^(-1/2) at a band edge and velocity ~ distance^(1/2) beside it become smooth in τ.
 struct WallSegment {
     double r_begin, z_begin, r_end, z_end;  // nm
     double normal_r, normal_z;              // outward
-    double viscosity;                       // of the fluid inside, pN us/nm^2
+    double viscosity;                       // of the fluid inside, pN µs/nm²
     WallKind kind;
     Clustering clustering;
     int panels;
 
-    double length() const;
-    double fraction(double tau) const;
-    double fraction_rate(double tau) const;  // d fraction / d tau
+    [[nodiscard]] double length() const;
+    [[nodiscard]] double fraction(double tau) const;
+    [[nodiscard]] double fraction_rate(double tau) const;  // d fraction / dτ
     double fraction_difference(double tau,
-                               double offset) const;  // fraction(tau + offset) - fraction(tau), no cancellation
+                               double offset) const;  // fraction(τ + offset) - fraction(τ), no cancellation
 };
 
 struct WallPanel {
@@ -43,35 +43,35 @@ struct WallPanel {
 struct WallNode {
     std::size_t segment;
     double tau;
-    double weight;  // d tau weight
+    double weight;  // dτ weight
     double r, z;
-    double speed;  // ds/d tau, nm
+    double speed;  // ds/dτ, nm
 };
 
-// Where a panel comes closest to a target off the wall, for the near-singular rule.
+/// Where a panel comes closest to a target off the wall, for the near-singular rule.
 struct PanelApproach {
     double distance;  // nm
     double length;    // of the panel, nm
     double tau;
-    double width;  // of the rule, in tau
+    double width;  // of the rule, in τ
 };
 
-// Unknown 2 i of node i is u_r; 2 i + 1 is u_z on free walls and t_z ds/d tau (pN/nm) in the band.
+/// Unknown 2 i of node i is u_r; 2 i + 1 is u_z on free walls and t_z ds/dτ (pN/nm) in the band.
 class WallPanels {
   public:
     WallPanels(const DomainParameters& domain, const FluidParameters& fluid, int nodes_per_panel);
 
-    const std::vector<WallSegment>& segments() const { return segments_; }
-    const std::vector<WallPanel>& panels() const { return panels_; }
-    const std::vector<WallNode>& nodes() const { return nodes_; }
-    const QuadratureRule& rule() const { return rule_; }
-    Index unknowns() const { return 2 * static_cast<Index>(nodes_.size()); }
-    bool is_band(const WallNode& node) const { return segments_[node.segment].kind == WallKind::band; }
+    [[nodiscard]] const std::vector<WallSegment>& segments() const { return segments_; }
+    [[nodiscard]] const std::vector<WallPanel>& panels() const { return panels_; }
+    [[nodiscard]] const std::vector<WallNode>& nodes() const { return nodes_; }
+    [[nodiscard]] const QuadratureRule& rule() const { return rule_; }
+    [[nodiscard]] Index unknowns() const { return 2 * static_cast<Index>(nodes_.size()); }
+    [[nodiscard]] bool is_band(const WallNode& node) const { return segments_[node.segment].kind == WallKind::band; }
 
-    PanelApproach approach(const WallPanel& panel, const Target& target) const;
+    [[nodiscard]] PanelApproach approach(const WallPanel& panel, const Target& target) const;
 
-    // Values at tau of the Lagrange polynomials through the panel's nodes.
-    std::vector<double> lagrange(const WallPanel& panel, double tau) const;
+    /// Values at τ of the Lagrange polynomials through the panel's nodes.
+    [[nodiscard]] std::vector<double> lagrange(const WallPanel& panel, double tau) const;
 
   private:
     std::vector<WallSegment> segments_;
@@ -87,7 +87,8 @@ struct WallTarget {
     Index node = -1;  // when the target is a wall node
 };
 
-// Rows of  sum_k nu_k int_{wall k} u.T.m dS - int_band t.G dS  acting on the wall unknowns.
-RowMatrix wall_layers(const WallPanels& walls, const std::vector<WallTarget>& targets, Index rows, int threads = 1);
+/// Rows of  Σ_k ν_k ∫_{wall k} u.T.m dS - ∫_band t.G dS  acting on the wall unknowns.
+[[nodiscard]] RowMatrix wall_layers(const WallPanels& walls, const std::vector<WallTarget>& targets, Index rows,
+                                    int threads = 1);
 
 }  // namespace endoflow::boundary_integral
