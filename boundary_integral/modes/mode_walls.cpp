@@ -44,13 +44,7 @@ class Builder {
 
     // The normal offset is constant on a straight segment, exactly zero on the target's own line.
     static RingPair pair_of(const ModeWallTarget& target, const WallSegment& segment, double r, double dr, double dz) {
-        return {
-            target.at.r,
-            r,
-            dr,
-            dz,
-            segment.normal_r,
-            segment.normal_r * (segment.r_begin - target.at.r) + segment.normal_z * (segment.z_begin - target.at.z)};
+        return {target.at.r, r, dr, dz, segment.normal_r, segment.normal_offset(target.at)};
     }
 
     void add_nodes(const ModeWallTarget& target, const WallPanel& panel) {
@@ -66,22 +60,12 @@ class Builder {
 
     void add_points(const ModeWallTarget& target, const WallPanel& panel, const OffsetRule& rule) {
         const WallSegment& segment = walls_.segments()[panel.segment];
-        const bool same = target.node >= 0 && walls_.nodes()[at(target.node)].segment == panel.segment;
-        const double target_tau = target.node >= 0 ? walls_.nodes()[at(target.node)].tau : 0.0;
-        const double length_r = segment.r_end - segment.r_begin, length_z = segment.z_end - segment.z_begin;
-        for (std::size_t i = 0; i < rule.offsets.size(); ++i) {
-            const double tau = rule.origin + rule.offsets[i];
-            const double fraction = segment.fraction(tau);
-            const double r = segment.r_begin + fraction * length_r, z = segment.z_begin + fraction * length_z;
-            const double offset =
-                same ? segment.fraction_difference(target_tau, (rule.origin - target_tau) + rule.offsets[i]) : 0.0;
-            const auto& kernels = kernels_(pair_of(target, segment, r, same ? offset * length_r : r - target.at.r,
-                                                   same ? offset * length_z : z - target.at.z));
-            const double speed = segment.length() * segment.fraction_rate(tau);
-            const std::vector<double> shape = walls_.lagrange(panel, tau);
+        for (const PanelPoint& point : points_on_panel(walls_, panel, target.at, target.node, rule)) {
+            const auto& kernels = kernels_(pair_of(target, segment, point.r, point.delta_r, point.delta_z));
+            const std::vector<double> shape = walls_.lagrange(panel, point.tau);
             for (std::size_t j = 0; j < shape.size(); ++j) {
-                const double weight = rule.weights[i] * r * shape[j];
-                deposit(kernels, segment, panel.first_node + static_cast<Index>(j), weight * speed, weight);
+                const double weight = point.weight * point.r * shape[j];
+                deposit(kernels, segment, panel.first_node + static_cast<Index>(j), weight * point.speed, weight);
             }
         }
     }

@@ -36,6 +36,15 @@ ClosestPoint closest_on_element(const MembraneSpace& space, const MembraneState&
     return {closest, p};
 }
 
+OffsetRule near_element_rule(const MembraneSpace& space, const MembraneState& state, Index element,
+                             const Target& target, double guess, const QuadratureRule& base) {
+    constexpr double smallest_distance = 1e-14;  // nm
+    const double begin = static_cast<double>(element) * space.element_width();
+    const auto [closest, p] = closest_on_element(space, state, element, target, guess);
+    const double distance = std::max(std::sqrt(squared_distance(p, target)), smallest_distance);
+    return near_singular_rule(begin, begin + space.element_width(), closest, distance / p.g, base);
+}
+
 ClosestPoint closest_on_membrane(const MembraneSpace& space, const MembraneState& state, const MembraneSamples& samples,
                                  const Target& target) {
     std::size_t nearest = 0;

@@ -158,11 +158,7 @@ class Builder {
 
     void add_near_element(const MembraneTarget& target, Index element, double guess) {
         const MembraneSpace& space = sources_.space;
-        const double begin = static_cast<double>(element) * space.element_width();
-        const auto [closest, p] = closest_on_element(space, sources_.state, element, target.at, guess);
-        const double distance = std::sqrt(squared_distance(p, target.at));
-        const OffsetRule rule = near_singular_rule(begin, begin + space.element_width(), closest,
-                                                   std::max(distance, 1e-14) / p.g, sources_.near_rule);
+        const OffsetRule rule = near_element_rule(space, sources_.state, element, target.at, guess, sources_.near_rule);
         start_extra();
         extra_basis_.clear();
         for (std::size_t i = 0; i < rule.offsets.size(); ++i) {

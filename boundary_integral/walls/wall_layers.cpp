@@ -15,13 +15,6 @@ std::size_t at(Index i) {
     return static_cast<std::size_t>(i);
 }
 
-/// A quadrature point on a panel: either one of its nodes or an extra point with interpolation weights.
-struct PanelPoint {
-    double tau;
-    double fraction_offset;  // fraction - fraction(target) when both lie on one segment
-    double weight;           // dτ
-};
-
 class Builder {
   public:
     Builder(const WallPanels& walls, const QuadratureRule& wall_rule, const QuadratureRule& membrane_rule,
@@ -49,26 +42,13 @@ class Builder {
         }
     }
 
-    /// Differences source - target on straight segments; the normal offset is constant, exactly zero on the target's
-    /// own line.
-    void push(const WallTarget& target, const WallSegment& segment, double fraction, double fraction_offset,
-              bool same) {
-        const double dr = segment.r_end - segment.r_begin;
-        const double dz = segment.z_end - segment.z_begin;
-        const double r = segment.r_begin + fraction * dr;
-        const double z = segment.z_begin + fraction * dz;
-        push_differences(target, segment, r, same ? fraction_offset * dr : r - target.at.r,
-                         same ? fraction_offset * dz : z - target.at.z);
-    }
-
-    void push_differences(const WallTarget& target, const WallSegment& segment, double r, double delta_r,
-                          double delta_z) {
+    /// The normal offset is constant on a straight segment, exactly zero on the target's own line.
+    void push(const WallTarget& target, const WallSegment& segment, double r, double delta_r, double delta_z) {
         sources_.radius.push_back(r);
         sources_.delta_r.push_back(delta_r);
         sources_.delta_z.push_back(delta_z);
         sources_.normal_r.push_back(segment.normal_r);
-        sources_.normal_offset.push_back(segment.normal_r * (segment.r_begin - target.at.r) +
-                                         segment.normal_z * (segment.z_begin - target.at.z));
+        sources_.normal_offset.push_back(segment.normal_offset(target.at));
     }
 
     void add_nodes(const WallTarget& target, const WallPanel& panel) {
@@ -77,7 +57,7 @@ class Builder {
         sources_.resize(0);
         for (std::size_t i = 0; i < count; ++i) {
             const WallNode& node = walls_.nodes()[at(panel.first_node) + i];
-            push_differences(target, segment, node.r, node.r - target.at.r, node.z - target.at.z);
+            push(target, segment, node.r, node.r - target.at.r, node.z - target.at.z);
         }
         evaluate_ring_kernels(target.at.r, sources_, kernels_);
         for (std::size_t i = 0; i < count; ++i) {
@@ -89,23 +69,15 @@ class Builder {
 
     void add_points(const WallTarget& target, const WallPanel& panel, const OffsetRule& rule) {
         const WallSegment& segment = walls_.segments()[panel.segment];
-        const bool same = target.node >= 0 && walls_.nodes()[at(target.node)].segment == panel.segment;
-        const double target_tau = target.node >= 0 ? walls_.nodes()[at(target.node)].tau : 0.0;
+        const std::vector<PanelPoint> points = points_on_panel(walls_, panel, target.at, target.node, rule);
         sources_.resize(0);
-        for (double offset : rule.offsets) {
-            const double tau = rule.origin + offset;
-            const double from_target = (rule.origin - target_tau) + offset;
-            push(target, segment, segment.fraction(tau),
-                 same ? segment.fraction_difference(target_tau, from_target) : 0.0, same);
-        }
+        for (const PanelPoint& point : points) push(target, segment, point.r, point.delta_r, point.delta_z);
         evaluate_ring_kernels(target.at.r, sources_, kernels_);
-        for (std::size_t i = 0; i < rule.offsets.size(); ++i) {
-            const double tau = rule.origin + rule.offsets[i];
-            const double speed = segment.length() * segment.fraction_rate(tau);
-            const std::vector<double> shape = walls_.lagrange(panel, tau);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const std::vector<double> shape = walls_.lagrange(panel, points[i].tau);
             for (std::size_t j = 0; j < shape.size(); ++j) {
-                const double weight = rule.weights[i] * sources_.radius[i] * shape[j];
-                deposit(target, segment, panel.first_node + static_cast<Index>(j), i, weight * speed, weight);
+                const double weight = points[i].weight * points[i].r * shape[j];
+                deposit(target, segment, panel.first_node + static_cast<Index>(j), i, weight * points[i].speed, weight);
             }
         }
     }

@@ -14,6 +14,10 @@ double WallSegment::length() const {
     return std::hypot(r_end - r_begin, z_end - z_begin);
 }
 
+double WallSegment::normal_offset(const Target& target) const {
+    return normal_r * (r_begin - target.r) + normal_z * (z_begin - target.z);
+}
+
 double WallSegment::fraction(double tau) const {
     const double sine = std::sin(half_pi * tau);
     return clustering == Clustering::both_ends ? sine * sine : sine;

@@ -28,6 +28,8 @@ struct WallSegment {
     int panels;
 
     [[nodiscard]] double length() const;
+    /// n.(x - target), nm, the same for all points x.
+    [[nodiscard]] double normal_offset(const Target& target) const;
     [[nodiscard]] double fraction(double tau) const;
     [[nodiscard]] double fraction_rate(double tau) const;  // d fraction / dτ
     double fraction_difference(double tau,

@@ -1,5 +1,8 @@
 #include "phasefield/schemes/paper/layer_fields.h"
 
+#include <deal.II/base/quadrature_lib.h>
+
+#include "phasefield/fem/same_cell.h"
 #include "phasefield/schemes/paper/surface_transport.h"
 
 namespace endoflow::phasefield::paper {
@@ -47,6 +50,39 @@ void LayerFields::evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterato
         p.velocity_z = u_z_.value[q];
         p.value_old = surface_field_.value[q];
     }
+}
+
+void advance_on_layer(const Spaces& spaces, const Space& surface, const Vector& flow_old, const Vector& flow_new,
+                      const Parameters& parameters, const SurfaceTerms& add_terms, const SurfaceInflow& add_inflow,
+                      LinearSystem& system, Vector& values) {
+    const dealii::QGauss<2> quadrature(quadrature_points(parameters.phase_field));
+    LayerFields layer(spaces, surface, parameters, quadrature);
+    LocalSystem local(surface, quadrature);
+    const unsigned int n = surface.element.n_dofs_per_cell();
+    dealii::FullMatrix<double> cell_matrix(n, n);
+    dealii::Vector<double> cell_rhs(n), cell_values(n);
+    std::vector<dealii::types::global_dof_index> indices(n);
+    std::vector<LayerPoint> points;
+
+    system.start();
+    for (const auto& cell : surface.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        const auto flow_cell = same_cell(cell, spaces.flow);
+        const CellBox box = cell_box(cell);
+        cell->get_dof_values(values, cell_values);
+        cell->get_dof_indices(indices);
+        layer.evaluate_cell(flow_cell, box, flow_old, flow_new, cell_values, points);
+        local.start(box, cell_values);
+        add_terms(points, local);
+        local.write(cell_matrix, cell_rhs);
+        if (cell->at_boundary()) add_inflow(flow_cell, box, cell_rhs);
+        surface.constraints.distribute_local_to_global(cell_matrix, cell_rhs, indices, system.matrix,
+                                                       system.right_hand_side);
+    }
+    Vector increment = surface.vector();
+    system.solve(surface.constraints, increment);
+    values += increment;
+    values.update_ghost_values();
 }
 
 }  // namespace endoflow::phasefield::paper

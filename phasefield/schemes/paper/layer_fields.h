@@ -2,6 +2,8 @@
 
 #include <deal.II/base/quadrature.h>
 
+#include <functional>
+
 #include "phasefield/schemes/paper/coupled_step.h"
 
 namespace endoflow::phasefield::paper {
@@ -34,5 +36,17 @@ class LayerFields {
     std::vector<double> coefficients_;
     ScalarField phi_old_, phi_new_, u_r_, u_z_, surface_field_;
 };
+
+/// The terms of a surface equation in one cell.
+using SurfaceTerms = std::function<void(const std::vector<LayerPoint>& points, LocalSystem& local)>;
+/// What comes through the walls into one cell at the boundary: adds to its right-hand side.
+using SurfaceInflow = std::function<void(const dealii::DoFHandler<2>::active_cell_iterator& flow_cell,
+                                         const CellBox& box, dealii::Vector<double>& right_hand_side)>;
+
+/// One implicit step of a surface space's unknowns, whose equations are linear or linearised about the last step.
+/// `flow_old` and `flow_new` hold φⁿ and (u, φ)ⁿ⁺¹; `values` go from step n to step n + 1.
+void advance_on_layer(const Spaces& spaces, const Space& surface, const Vector& flow_old, const Vector& flow_new,
+                      const Parameters& parameters, const SurfaceTerms& add_terms, const SurfaceInflow& add_inflow,
+                      LinearSystem& system, Vector& values);
 
 }  // namespace endoflow::phasefield::paper

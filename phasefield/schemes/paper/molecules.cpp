@@ -1,6 +1,3 @@
-#include <deal.II/base/quadrature_lib.h>
-
-#include "phasefield/fem/same_cell.h"
 #include "phasefield/schemes/paper/conserved_terms.h"
 #include "phasefield/schemes/paper/surface_transport.h"
 #include "shared/model/double_well.h"
@@ -53,33 +50,11 @@ void add_molecule_terms(const std::vector<LayerPoint>& points, const MoleculePar
 
 void advance_molecules(const Spaces& spaces, const Vector& flow_old, const Vector& flow_new,
                        const Parameters& parameters, double tau, LinearSystem& system, Vector& molecules) {
-    const Space& space = spaces.molecules;
-    const dealii::QGauss<2> quadrature(quadrature_points(parameters.phase_field));
-    LayerFields layer(spaces, space, parameters, quadrature);
-    LocalSystem local(space, quadrature);
-    const unsigned int n = space.element.n_dofs_per_cell();
-    dealii::FullMatrix<double> cell_matrix(n, n);
-    dealii::Vector<double> cell_rhs(n), cell_values(n);
-    std::vector<dealii::types::global_dof_index> indices(n);
-    std::vector<LayerPoint> points;
-
-    system.start();
-    for (const auto& cell : space.dofs.active_cell_iterators()) {
-        if (!cell->is_locally_owned()) continue;
-        const CellBox box = cell_box(cell);
-        cell->get_dof_values(molecules, cell_values);
-        cell->get_dof_indices(indices);
-        layer.evaluate_cell(same_cell(cell, spaces.flow), box, flow_old, flow_new, cell_values, points);
-        local.start(box, cell_values);
+    const auto terms = [&](const std::vector<LayerPoint>& points, LocalSystem& local) {
         add_molecule_terms(points, parameters.molecules, tau, local);
-        local.write(cell_matrix, cell_rhs);
-        space.constraints.distribute_local_to_global(cell_matrix, cell_rhs, indices, system.matrix,
-                                                     system.right_hand_side);
-    }
-    Vector increment = space.vector();
-    system.solve(space.constraints, increment);
-    molecules += increment;
-    molecules.update_ghost_values();
+    };
+    const auto no_inflow = [](const auto&, const CellBox&, dealii::Vector<double>&) {};
+    advance_on_layer(spaces, spaces.molecules, flow_old, flow_new, parameters, terms, no_inflow, system, molecules);
 }
 
 }  // namespace endoflow::phasefield::paper

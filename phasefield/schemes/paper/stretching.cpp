@@ -1,6 +1,5 @@
 #include <deal.II/base/quadrature_lib.h>
 
-#include "phasefield/fem/same_cell.h"
 #include "phasefield/schemes/paper/conserved_terms.h"
 #include "phasefield/schemes/paper/surface_transport.h"
 
@@ -68,38 +67,16 @@ class WallInflow {
 
 void advance_stretching(const Spaces& spaces, const Vector& flow_old, const Vector& flow_new,
                         const Parameters& parameters, double tau, LinearSystem& system, Vector& stretching) {
-    const Space& space = spaces.stretching;
-    const dealii::QGauss<2> quadrature(quadrature_points(parameters.phase_field));
-    LayerFields layer(spaces, space, parameters, quadrature);
-    LocalSystem local(space, quadrature);
-    WallInflow inflow(spaces, parameters);
-    const unsigned int n = space.element.n_dofs_per_cell();
-    dealii::FullMatrix<double> cell_matrix(n, n);
-    dealii::Vector<double> cell_rhs(n), cell_values(n);
-    std::vector<dealii::types::global_dof_index> indices(n);
-    std::vector<LayerPoint> points;
-
-    system.start();
-    for (const auto& cell : space.dofs.active_cell_iterators()) {
-        if (!cell->is_locally_owned()) continue;
-        const auto flow_cell = same_cell(cell, spaces.flow);
-        const CellBox box = cell_box(cell);
-        cell->get_dof_values(stretching, cell_values);
-        cell->get_dof_indices(indices);
-        layer.evaluate_cell(flow_cell, box, flow_old, flow_new, cell_values, points);
-        local.start(box, cell_values);
+    const auto terms = [&](const std::vector<LayerPoint>& points, LocalSystem& local) {
         add_conserved_rate(points, tau, 0, 0, local);
         add_layer_diffusion(points, parameters.phase_field.stretching_diffusivity, 0, 0, local);
         add_normal_diffusion(points, parameters.molecules.normal_diffusivity, 0, 0, local);
-        local.write(cell_matrix, cell_rhs);
-        if (cell->at_boundary()) inflow.add(flow_cell, box, flow_new, cell_rhs);
-        space.constraints.distribute_local_to_global(cell_matrix, cell_rhs, indices, system.matrix,
-                                                     system.right_hand_side);
-    }
-    Vector increment = space.vector();
-    system.solve(space.constraints, increment);
-    stretching += increment;
-    stretching.update_ghost_values();
+    };
+    WallInflow at_walls(spaces, parameters);
+    const auto inflow = [&](const auto& flow_cell, const CellBox& box, dealii::Vector<double>& right_hand_side) {
+        at_walls.add(flow_cell, box, flow_new, right_hand_side);
+    };
+    advance_on_layer(spaces, spaces.stretching, flow_old, flow_new, parameters, terms, inflow, system, stretching);
 }
 
 }  // namespace endoflow::phasefield::paper
