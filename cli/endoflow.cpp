@@ -8,7 +8,6 @@
 #include <cstdlib>
 
 #include "command_line.h"
-#include "launcher.h"
 #include "laws.h"
 #include "locations.h"
 #include "process.h"

@@ -3,7 +3,7 @@
 #include "boundary_integral/simulation.h"
 #include "command_line.h"
 #include "engine_run.h"
-#include "launcher.h"
+#include "process.h"
 #include "shared/output/run_output.h"
 #include "shared/support/interruption.h"
 

@@ -8,7 +8,6 @@
 
 #include "boundary_integral/modes/run_modes.h"
 #include "command_line.h"
-#include "launcher.h"
 #include "process.h"
 #include "shared/support/console.h"
 #include "shared/support/error.h"

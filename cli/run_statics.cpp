@@ -2,8 +2,8 @@
 
 #include "command_line.h"
 #include "engine_run.h"
-#include "launcher.h"
 #include "locations.h"
+#include "process.h"
 #include "shared/case/case_file.h"
 #include "shared/output/run_output.h"
 #include "shared/support/interruption.h"

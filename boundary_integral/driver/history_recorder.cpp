@@ -1,11 +1,13 @@
 #include "boundary_integral/driver/history_recorder.h"
 
+#include <fmt/format.h>
+
 #include <numbers>
 #include <utility>
 
-#include "boundary_integral/driver/run_checks.h"
 #include "boundary_integral/evolution/resolution_estimate.h"
 #include "boundary_integral/flow/free_space_flow.h"
+#include "shared/support/error.h"
 
 namespace endoflow::boundary_integral {
 
@@ -20,6 +22,32 @@ FlowBalances balances(const MembraneDynamics& dynamics, const Evaluation& e) {
     if (const BoxFlow* box = dynamics.box())
         return flow_balances(dynamics.space(), *box, *e.operators, e.samples, e.flow);
     return flow_balances(dynamics.space(), *e.operators, e.samples, e.flow);
+}
+
+/// Jump of c's fifth derivative from which on c overshoots by tenths. Below it, it does by the hundredths of a resolved
+/// edge, and a law that does not stand them is to blame.
+constexpr double unresolved = 2.0;
+
+/// Beside the coat's edge c leaves [0, 1] by some hundredths. That is harmless as long as b(c) stays positive; bending
+/// with a negative stiffness is ill-posed, and no time step would be small enough: SolverError("negative-stiffness").
+void check_stiffness(const Evaluation& evaluation, const MembraneDynamics& dynamics, const Parameters& parameters,
+                     double time) {
+    for (const double c : evaluation.samples.c) {
+        if (dynamics.model().stiffness(c).value > 0.0) continue;
+        if (estimate_resolution(dynamics.space(), evaluation.state).concentration > unresolved)
+            throw SolverError("unresolved-coat-edge",
+                              fmt::format("c = {:.6f} at t = {:.6f} µs, where the bending stiffness is no longer "
+                                          "positive, beside the coat's edge: boundary_integral.elements = {} do not "
+                                          "resolve molecules.interface_width = {:g} nm",
+                                          c, time, dynamics.space().elements(), parameters.molecules.interface_width),
+                              "raise one of them");
+        throw SolverError("negative-stiffness",
+                          fmt::format("the law of membrane.constitutive_law gives no positive bending stiffness at "
+                                      "c = {:.6f}, beside the edge of the coat, at t = {:.6f} µs",
+                                      c, time),
+                          "bring membrane.bending_stiffness and bending_stiffness_coated nearer to each other, or "
+                          "choose another membrane.constitutive_law");
+    }
 }
 
 }  // namespace
@@ -91,11 +119,11 @@ void HistoryRecorder::record(double time, const Evaluation& evaluation, const St
     strain_rates_ = std::move(strain_rates);
     row.area_strain_max = strain_.largest();
     molecules_.advance(last_row_, time, [&](double t) { return dynamics_.exchanged_per_time(integrator.state_at(t)); });
-    row.extra = own_values(own_history_columns(),
-                           {energy_balance(dynamics_, evaluation), balances(dynamics_, evaluation),
-                            evaluation.flow.inflow, walls ? walls->smallest() : 0.0, integrator.last_order(),
-                            line_energy, molecules_.exchanged(), molecules_.residual(row.membrane.molecule_mass),
-                            resolution_error(evaluation.state)});
+    row.extra =
+        own_values(own_history_columns(),
+                   {energy_balance(dynamics_, evaluation), balances(dynamics_, evaluation), evaluation.flow.inflow,
+                    walls ? walls->smallest() : 0.0, integrator.last_order(), line_energy, molecules_.exchanged(),
+                    molecules_.residual(row.membrane.molecule_mass), resolution_error(evaluation.state)});
     output_.record_step(row);
     last_row_ = time;
 }

@@ -8,11 +8,11 @@
 
 #include "boundary_integral/driver/event_recorder.h"
 #include "boundary_integral/driver/history_recorder.h"
-#include "boundary_integral/driver/integrator_checkpoint.h"
 #include "boundary_integral/driver/output_series.h"
 #include "boundary_integral/evolution/refinement.h"
 #include "shared/case/resolution.h"
 #include "shared/model/time_scale.h"
+#include "shared/support/error.h"
 #include "shared/support/interruption.h"
 
 namespace endoflow::boundary_integral {
@@ -40,6 +40,22 @@ Parameters with_resolution(Parameters parameters, Index elements) {
 
 Index elements_at(const std::optional<Checkpoint>& from, const Parameters& parameters) {
     return from ? static_cast<Index>(from->scalar("elements")) : initial_elements(parameters);
+}
+
+/// The point that a resumed integration starts from, in a checkpoint.
+void save(const StartingPoint& start, Checkpoint& checkpoint) {
+    checkpoint.time_us = start.time;
+    checkpoint.scalars["first_step"] = start.step;
+    checkpoint.arrays["unknowns"] = {start.y.data(), start.y.data() + start.y.size()};
+}
+
+/// Throws IoError when the checkpoint, which lies in `directory`, does not hold `size` unknowns.
+StartingPoint restored_start(const Checkpoint& checkpoint, Eigen::Index size, const std::string& directory) {
+    const std::vector<double>& unknowns = checkpoint.array("unknowns");
+    if (static_cast<Eigen::Index>(unknowns.size()) != size)
+        throw IoError("the checkpoint in " + directory + " does not hold this membrane; run without --restart");
+    return {checkpoint.time_us, checkpoint.scalar("first_step"),
+            Eigen::Map<const Eigen::VectorXd>(unknowns.data(), size)};
 }
 
 /// A run from its beginning or a checkpoint on, as long as its elements are enough.

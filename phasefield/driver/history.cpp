@@ -25,8 +25,7 @@ const std::vector<OwnColumn<StepRecord>>& own_history_columns() {
          "largest relative error of the layer's thickness along the membrane, |√2 ε|∇φ|/(1 − φ²) − 1| on "
          "|φ| < 0.5 (69 % of the membrane's weight)",
          [](const R& r) { return r.diagnostics.thickness_error_max; }},
-        {"profile_error_max",
-         "the same on |φ| < 0.9, where the layers of bud and plane meet outside of a narrow neck",
+        {"profile_error_max", "the same on |φ| < 0.9, where the layers of bud and plane meet outside of a narrow neck",
          [](const R& r) { return r.diagnostics.profile_error_max; }},
         {"motion_max_nm", "motion in the step on |φ| < 0.9", [](const R& r) { return r.diagnostics.motion_max; }},
         {"net_vertical_force_pN", "of the membrane and its loads on the fluid, which the pinned rim takes up",
