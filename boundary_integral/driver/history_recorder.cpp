@@ -59,8 +59,7 @@ const std::vector<OwnColumn<StepBalances>>& own_history_columns() {
         {"energy_rate_pN_nm_per_us", "d(E + E_c)/dt along the computed motion",
          [](const B& b) { return b.energy.energy_rate; }},
         {"energy_balance_relative",
-         "|dE/dt + ∫ f·u − diffusion| / ∫ f·u, with all that changes c in the material, and with the two powers "
-         "below "
+         "|dE/dt + ∫ f·u − diffusion| / ∫ f·u, with all that changes c in the material, and with the two powers below "
          "added to ∫ f·u",
          [](const B& b) { return b.energy.residual(); }},
         {"force_balance_relative", "forces of membrane and pin band against the tractions on the walls",

@@ -7,11 +7,12 @@
 
 #include <Eigen/Core>
 
+#include "shared/geometry/meridian.h"
+
 namespace endoflow::boundary_integral {
 
 using Index = Eigen::Index;
 
-enum class Parity { even, odd };
 enum class RightEnd { free, mirrored };  // at ξ = 1: multiple knot, or the same parity as at 0
 
 /// Values of the (at most six) functions of a space that do not vanish at one point. An index may appear twice (a

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-namespace endoflow {
+#include "shared/geometry/meridian.h"
 
-enum class Parity { even, odd };
+namespace endoflow {
 
 /// What a curve ends at, having started on the axis.
 enum class FarEnd { free, axis };

@@ -5,6 +5,10 @@
 
 namespace endoflow {
 
+/// How a function of the meridian's parameter continues through the axis: heights and concentrations are even, radii
+/// odd.
+enum class Parity { even, odd };
+
 /// A membrane's meridian r(t) from the axis to the rim, in whatever representation an engine has it, as those see it
 /// who measure it. Lengths in nm; the parameter t is the engine's own.
 class Meridian {
