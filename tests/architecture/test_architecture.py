@@ -100,6 +100,17 @@ class Circles(Tree):
         self.assertEqual(found, [f"{head}\n    {x} imports {y}\n    {y} imports {z}"])
 
 
+class FileCircles(Tree):
+    def test_headers_of_one_folder(self):
+        texts = {"a/x.h": '#include "a/y.h"\n', "a/y.h": '#include "a/x.h"\n', "a/x.cpp": '#include "a/x.h"\n'}
+        graph = sources.includes(texts, self.tree(texts))
+        self.assertEqual(check.file_circles(graph), ["a/x.h, a/y.h include each other"])
+
+    def test_a_header_and_its_source_are_none(self):
+        texts = {"a/x.h": "", "a/y.h": '#include "a/x.h"\n', "a/x.cpp": '#include "a/x.h"\n#include "a/y.h"\n'}
+        self.assertEqual(check.file_circles(sources.includes(texts, self.tree(texts))), [])
+
+
 class Graphs(Tree):
     def test_files_without_git(self):
         root = self.tree({"a/x.h": "", "build/y.h": "", "tools/__pycache__/z.py": ""})

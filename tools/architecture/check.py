@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """tools/architecture/check.py: what the layout of the project promises. Exit code 1 with one line for each promise broken.
 
- * No folder includes or imports another that leads back to it, at any depth.
+ * No folder includes or imports another that leads back to it, at any depth; no header includes another that leads back to it.
  * No source file has more than 400 lines.
  * Every page of docs/ opens with what its reader will know at the end.
 """
@@ -32,6 +32,11 @@ def circles(graph, verb):
     return broken
 
 
+def file_circles(graph):
+    """One line for each circle of includes between files, wherever they lie."""
+    return [f"{', '.join(circle)} include each other" for circle in folders.file_circles(graph)]
+
+
 def long_files(files, root):
     """One line for each source file that is too long."""
     lengths = {name: len((root / name).read_text("utf-8").splitlines()) for name in sources.source_files(files)}
@@ -51,7 +56,8 @@ def unopened_pages(files, root):
 def problems(root=sources.ROOT):
     """All that is wrong with the project in root (Path), one text each."""
     files = sources.tracked(root)
-    uses = circles(sources.includes(files, root), "includes") + circles(sources.imports(files, root), "imports")
+    included = sources.includes(files, root)
+    uses = circles(included, "includes") + file_circles(included) + circles(sources.imports(files, root), "imports")
     return uses + long_files(files, root) + unopened_pages(files, root)
 
 

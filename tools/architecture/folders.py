@@ -45,6 +45,13 @@ def circles(graph):
     return sorted(list(circle) for circle in found if any(name.endswith("/") for name in circle))
 
 
+def file_circles(graph):
+    """The sets of files that reach each other, as sorted lists."""
+    reach = {name: reachable(graph, name) for name in graph}
+    found = {tuple(sorted(n for n in reach[name] if name in reach[n])) for name in graph if name in reach[name]}
+    return sorted(list(circle) for circle in found)
+
+
 def reachable(graph, start):
     """All names that can be reached from start in one step or more."""
     seen, ahead = set(), list(graph.get(start, ()))
