@@ -1,13 +1,41 @@
 #include "shared/parameters/parameter_table.h"
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <type_traits>
-
-#include "shared/parameters/enum_names.h"
 
 namespace endoflow {
 
 namespace {
+
+/// The words of case files for the values of each enumeration, in their order; a row an enumeration.
+template <class Enum>
+constexpr std::nullptr_t words{};  // an enumeration without a row does not compile
+template <>
+constexpr std::array words<DomainKind>{"box", "free-space"};
+template <>
+constexpr std::array words<Dynamics>{"flow", "geometric"};
+template <>
+constexpr std::array words<CurvatureConvention>{"as-printed", "consistent"};
+template <>
+constexpr std::array words<ConstitutiveLaw>{"linear", "coarse-grained", "lumped"};
+template <>
+constexpr std::array words<Transport>{"cahn-hilliard", "fickian", "advection"};
+template <>
+constexpr std::array words<Coupling>{"none", "energetic"};
+template <>
+constexpr std::array words<Exchange>{"none", "reservoir", "edge"};
+template <>
+constexpr std::array words<PhaseFieldScheme>{"paper", "production"};
+template <>
+constexpr std::array words<StepRule>{"guarded", "ramp"};
+template <>
+constexpr std::array words<BendingUnknown>{"moment", "f"};
+template <>
+constexpr std::array words<ForceSign>{"plus", "minus"};
+template <>
+constexpr std::array words<ViscosityMean>{"arithmetic", "harmonic"};
 
 /// Binds a row to the member it sets; `section` finds the member's struct in Parameters. `Member` decides the type a
 /// case file must use.
@@ -16,14 +44,14 @@ ParameterRow row(const char* section_name, const char* key, Find section, Member
                  Bounds bounds, const char* symbol, const char* meaning) {
     ParameterRow result{section_name, key, unit, bounds, symbol, meaning, {}, nullptr, nullptr};
     if constexpr (std::is_enum_v<Member>) {
-        for (const char* name : EnumNames<Member>::names) result.choices.emplace_back(name);
+        for (const char* name : words<Member>) result.choices.emplace_back(name);
         result.get = [section, member](const Parameters& p) -> ParameterValue {
-            return std::string(EnumNames<Member>::names[static_cast<std::size_t>(std::invoke(section, p).*member)]);
+            return std::string(words<Member>[static_cast<std::size_t>(std::invoke(section, p).*member)]);
         };
         result.set = [section, member](Parameters& p, const ParameterValue& value) {
             const auto& name = std::get<std::string>(value);
-            for (std::size_t i = 0; i < EnumNames<Member>::names.size(); ++i)
-                if (name == EnumNames<Member>::names[i]) std::invoke(section, p).*member = static_cast<Member>(i);
+            for (std::size_t i = 0; i < words<Member>.size(); ++i)
+                if (name == words<Member>[i]) std::invoke(section, p).*member = static_cast<Member>(i);
         };
     } else if constexpr (std::is_same_v<Member, int>) {
         result.get = [section, member](const Parameters& p) -> ParameterValue {
