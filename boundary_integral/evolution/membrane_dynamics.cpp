@@ -62,7 +62,7 @@ MembraneDynamics::MembraneDynamics(const Parameters& parameters)
       bending_(bending_energy(parameters)),
       loads_(loads_of(parameters)),
       transport_(transport_law(parameters.molecules)),
-      exchange_(parameters.molecules),
+      exchange_(exchange_law(parameters.molecules)),
       flow_(make_flow(parameters, space_)),
       mesh_(space_,
             {parameters.boundary_integral.mesh_curvature_length, parameters.boundary_integral.mesh_edge_length,

@@ -35,7 +35,7 @@ LinearisedMembrane::LinearisedMembrane(const Parameters& parameters, const Surro
       energy_(membrane_energy(parameters)),
       bending_(bending_energy(parameters)),
       transport_(transport_law(parameters.molecules)),
-      exchange_(parameters.molecules),
+      exchange_(exchange_law(parameters.molecules)),
       base_(std::move(base)) {
     base_.multipliers.pressure -= loads_of(parameters).pressure;  // pressure difference: minus its potential is p V
     Surroundings::Layers layers = surroundings_.layers(base_);

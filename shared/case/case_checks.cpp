@@ -142,8 +142,7 @@ void check_exchange(const Parameters& p, const Require& require) {
     require(m.pool_area == 0 || m.pool_area > initial_coat(m),
             fmt::format("molecules.pool_area = {:g} nm^2 must exceed the {:.5g} nm^2 of the initial coat", m.pool_area,
                         initial_coat(m)));
-    const double exponent =
-        ExchangeLaw(m).detachment_exponent(bending_energy(p).density(0, 1, 0).partial[local::concentration]);
+    const double exponent = detachment_exponent(m, bending_energy(p).density(0, 1, 0).partial[local::concentration]);
     require(std::abs(exponent) <= largest_exponent,
             fmt::format("molecules.molecule_area = {:g} nm^2: a molecule of the flat coat would free {:.4g} k_B T by "
                         "leaving, more than {:g}; lower it, or curvature_sensing",

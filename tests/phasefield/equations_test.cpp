@@ -34,6 +34,15 @@ struct AddedStiffness {
     }
 };
 
+/// Molecules that bring others and are kept by a bent membrane: an exchange law that the scheme has never heard of.
+struct CooperativeExchange {
+    template <class Number>
+    [[nodiscard]] Number rate(const ExchangePoint<Number>& x) const {
+        const Number& c = x.concentration;
+        return 30 * (c * c * (1.0 - 1e-4 * x.mass)) - 0.7 * (x.by_concentration * c);
+    }
+};
+
 Parameters coupled() {
     Parameters p;
     p.molecules.coupling = Coupling::energetic;
@@ -88,9 +97,8 @@ PointPast some_past(const Parameters& p) {
     return past;
 }
 
-void check_jacobian(const Parameters& p, const LayerEnergy& energy) {
+void check_jacobian(const Parameters& p, const LayerEnergy& energy, const StepNumbers& step) {
     const PointPast past = some_past(p);
-    const StepNumbers step = numbers(p);
     const GradientChange change{0.3, -0.2};
     const auto rows_at = [&](const auto& x) { return point_equations(x, 7.0, past, change, step, energy); };
     const auto x = some_point();
@@ -160,9 +168,27 @@ void check_variation(const LayerEnergy& energy) {
 TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
     for (const Parameters& p : {of(Transport::cahn_hilliard), of(Transport::fickian), of(Transport::advection),
                                 loaded(), coupled(), growing(Exchange::reservoir), growing(Exchange::edge)})
-        check_jacobian(p, LayerEnergy(p));
+        check_jacobian(p, LayerEnergy(p), numbers(p));
     const Parameters p;
-    check_jacobian(p, LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 3})));
+    check_jacobian(p, LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 3})), numbers(p));
+}
+
+TEST_CASE("any exchange law brings its molecules, and the Jacobian knows it", "[production]") {
+    const Parameters p;
+    const LayerEnergy energy(p);
+    StepNumbers with = numbers(p);
+    with.exchange = ExchangeLaw(CooperativeExchange{});
+    check_jacobian(p, energy, with);
+    const PointPast past = some_past(p);
+    const auto x = some_point();
+    const auto there = point_equations(x, 7.0, past, {}, with, energy),
+               without = point_equations(x, 7.0, past, {}, numbers(p), energy);
+    const auto point = point_geometry(x[distance], past.thickness, with.weight);
+    const double c = x[molecule_density].value,
+                 by_c = -energy.density.conjugate(-x[Field::moment].value, c, 0).partial[local::concentration],
+                 rate = 30 * c * c * (1 - 1e-4 * with.molecules) - 0.7 * by_c * c;
+    CHECK(without[molecule_density].value - there[molecule_density].value ==
+          Approx(point.density * rate).epsilon(1e-12));
 }
 
 TEST_CASE("forces are the variation of the energy, whatever its terms", "[production]") {

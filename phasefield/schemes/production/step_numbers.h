@@ -23,7 +23,7 @@ struct StepNumbers {
           fluid(p.fluid),
           normal_diffusivity(p.molecules.normal_diffusivity),
           transport(transport_law(p.molecules)),
-          exchange(p.molecules),
+          exchange(exchange_law(p.molecules)),
           loads(loads_of(p)),
           weight(membrane),
           rates(scheme_rates(p)),
