@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "shared/model/time_scale.h"
+
 namespace endoflow {
 
 namespace {
@@ -53,7 +55,7 @@ int elements_asked_for(const Parameters& p) {
 }
 
 double sharp_tolerance(const Parameters& p) {
-    return p.time.tolerance > 0 ? p.time.tolerance : tolerance_part * p.boundary_integral.accuracy;
+    return time_tolerance(p, tolerance_part * p.boundary_integral.accuracy);
 }
 
 std::vector<ResolutionWarning> foreseen_inaccuracies(const Parameters& p) {

@@ -48,4 +48,8 @@ double longest_step(const Parameters& p) {
     return p.time.max_step > 0 ? p.time.max_step : longest_part * std::max(natural_time(p), exchange_time(p));
 }
 
+double time_tolerance(const Parameters& p, double chosen) {
+    return p.time.tolerance > 0 ? p.time.tolerance : chosen;
+}
+
 }  // namespace endoflow

@@ -22,4 +22,7 @@ namespace endoflow {
 /// that follows a slowly growing coat is at rest in between, and steps are as long as their error allows.
 [[nodiscard]] double longest_step(const Parameters& parameters);
 
+/// time.tolerance, or what an engine chooses where that is 0.
+[[nodiscard]] double time_tolerance(const Parameters& parameters, double chosen);
+
 }  // namespace endoflow

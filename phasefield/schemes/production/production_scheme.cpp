@@ -34,8 +34,7 @@ constexpr double largest_motion = constant("largest_motion");
 
 /// Largest error of the membrane's position per step [nm].
 double position_tolerance(const Parameters& p) {
-    const double tolerance = p.time.tolerance > 0 ? p.time.tolerance : default_tolerance;
-    return error_part * tolerance * size_of_membrane(p.domain);
+    return error_part * time_tolerance(p, default_tolerance) * size_of_membrane(p.domain);
 }
 
 }  // namespace
