@@ -1,6 +1,6 @@
 #pragma once
 
-// How much the material of the membrane has been stretched. (38) without diffusion says D ln s/Dt = - div_Gamma u with
+// How much the material of the membrane has been stretched. (38) without diffusion says D ln s/Dt = - ∇_Γ·u with
 // s = initial area / area; membrane that flows in through the rim has s = 1 (31). Markers move with the material and
 // integrate it, so that the mesh's own motion and interpolation leave no trace in s.
 
@@ -10,30 +10,30 @@
 
 namespace endoflow::boundary_integral {
 
-// What markers need of a state, at equal steps of xi from the axis to the rim.
+/// What markers need of a state, at equal steps of ξ from the axis to the rim.
 struct MaterialRates {
-    std::vector<double> drift;   // d xi/dt of the material, 1/us
-    std::vector<double> growth;  // div_Gamma u, 1/us
+    std::vector<double> drift;   // d ξ/dt of the material, 1/µs
+    std::vector<double> growth;  // ∇_Γ·u, 1/µs
 };
 
 class MaterialStrain {
   public:
-    // Unstretched membrane, `markers_per_element` markers on each of the space's elements.
+    /// Unstretched membrane, `markers_per_element` markers on each of the space's elements.
     explicit MaterialStrain(const MembraneSpace& space);
 
-    MaterialRates rates(const Evaluation& evaluation) const;
+    [[nodiscard]] MaterialRates rates(const Evaluation& evaluation) const;
 
-    // A time step between two states; the rates vary linearly within it.
+    /// A time step between two states; the rates vary linearly within it.
     void advance(const MaterialRates& before, const MaterialRates& after, double step);
 
-    // max |1/s - 1| = max |area / initial area - 1|.
-    double largest() const;
+    /// max |1/s - 1| = max |area / initial area - 1|.
+    [[nodiscard]] double largest() const;
 
-    // Marker positions, increasing, and -ln s.
+    /// Marker positions, increasing, and -ln s.
     struct Markers {
         std::vector<double> xi, log_growth;
     };
-    const Markers& markers() const { return markers_; }
+    [[nodiscard]] const Markers& markers() const { return markers_; }
     void restore(Markers markers) { markers_ = std::move(markers); }
 
   private:
@@ -42,7 +42,7 @@ class MaterialStrain {
     std::vector<BasisRow> radial_rows_, axial_rows_;
     Markers markers_;
 
-    double spacing() const;
+    [[nodiscard]] double spacing() const;
     void renew();
 };
 

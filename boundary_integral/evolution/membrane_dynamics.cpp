@@ -92,7 +92,7 @@ Eigen::VectorXd MembraneDynamics::initial_vector() const {
     const InitialCurve initial(parameters_);
     const std::vector<double> points = space_.radial().greville_points();
     const Interpolation radial(space_.radial()), axial(space_.axial());
-    Eigen::VectorXd shift = Eigen::VectorXd::Zero(space_.radial_count());  // s - xi, s the initial curve's parameter
+    Eigen::VectorXd shift = Eigen::VectorXd::Zero(space_.radial_count());  // s - ξ, s the initial curve's parameter
     const auto parameter = [&](double xi) { return xi + space_.radial().basis(xi).evaluate(shift); };
     MembraneState state;
     constexpr int sweeps = 200;
@@ -199,7 +199,7 @@ Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
     multipliers.pressure -= loads_.pressure;
     const EnergyDerivatives second = energy_derivatives(space_, e.state, energy_, Derivatives::second, multipliers);
 
-    // Velocity freedoms: delta u = Y delta load with B delta u = - delta B u.
+    // Velocity freedoms: δu = Y δload with B δu = - δB u.
     Eigen::MatrixXd load_curve = -freedoms.restrict_rows(pack_columns(second.hessian));
     if (loads_.pole_force != 0.0)
         load_curve += freedoms.restrict_rows(pack_columns(pole_force_variation(space_, e.samples, loads_)));

@@ -18,55 +18,57 @@
 
 namespace endoflow::boundary_integral {
 
-// Everything that is computed on the way from a state vector to its rate of change.
+/// Everything that is computed on the way from a state vector to its rate of change.
 struct Evaluation {
     MembraneState state;
     MembraneSamples samples;
     EnergyDerivatives energy;
     std::shared_ptr<const MobilityOperators> operators;
     FlowSolution flow;
-    std::vector<double> relative_velocity;  // of the material against the mesh, tangential, at the Gauss points, nm/us
-    Eigen::VectorXd mesh_velocity;          // curve_count, nm/us
+    std::vector<double> relative_velocity;  // of the material against the mesh, tangential, at the Gauss points, nm/µs
+    Eigen::VectorXd mesh_velocity;          // curve_count, nm/µs
     Eigen::VectorXd diffusion, exchange;    // rates of the moments by either
     Eigen::VectorXd rate;                   // F(y)
 };
 
-// y = (r coefficients, z coefficients, moments of c). The rim's radius, its height and its slope do not move: their
-// coefficients are left out.
+/// y = (r coefficients, z coefficients, moments of c). The rim's radius, its height and its slope do not move: their
+/// coefficients are left out.
 class MembraneDynamics {
   public:
     explicit MembraneDynamics(const Parameters& parameters);
 
-    const MembraneSpace& space() const { return space_; }
-    const FlowModel& flow_model() const { return *flow_; }
-    const BoxFlow* box() const { return dynamic_cast<const BoxFlow*>(flow_.get()); }  // nullptr without walls
-    const BendingModel& model() const { return model_; }
-    const TransportLaw& transport() const { return transport_; }
-    Index size() const { return free_radial() + free_axial() + space_.axial_count(); }
+    [[nodiscard]] const MembraneSpace& space() const { return space_; }
+    [[nodiscard]] const FlowModel& flow_model() const { return *flow_; }
+    /// nullptr without walls.
+    [[nodiscard]] const BoxFlow* box() const { return dynamic_cast<const BoxFlow*>(flow_.get()); }
+    [[nodiscard]] const BendingModel& model() const { return model_; }
+    [[nodiscard]] const TransportLaw& transport() const { return transport_; }
+    [[nodiscard]] Index size() const { return free_radial() + free_axial() + space_.axial_count(); }
 
-    // Flat membrane or spheroid with the coat's equilibrium profile on a mesh that resolves it.
-    Eigen::VectorXd initial_vector() const;
+    /// Flat membrane or spheroid with the coat's equilibrium profile on a mesh that resolves it.
+    [[nodiscard]] Eigen::VectorXd initial_vector() const;
 
-    MembraneState unpack(const Eigen::VectorXd& y) const;
-    Eigen::VectorXd packed(const MembraneState& state) const;
-    Evaluation evaluate(const Eigen::VectorXd& y) const { return evaluate(y, operators(y)); }
+    [[nodiscard]] MembraneState unpack(const Eigen::VectorXd& y) const;
+    [[nodiscard]] Eigen::VectorXd packed(const MembraneState& state) const;
+    [[nodiscard]] Evaluation evaluate(const Eigen::VectorXd& y) const { return evaluate(y, operators(y)); }
 
-    // The hydrodynamic operators cost far more than the rest and depend smoothly on the shape: they may be taken from
-    // a shape that is known to be close.
-    std::shared_ptr<const MobilityOperators> operators(const Eigen::VectorXd& y) const;
-    Evaluation evaluate(const Eigen::VectorXd& y, std::shared_ptr<const MobilityOperators> operators) const;
+    /// The hydrodynamic operators cost far more than the rest and depend smoothly on the shape: they may be taken from
+    /// a shape that is known to be close.
+    [[nodiscard]] std::shared_ptr<const MobilityOperators> operators(const Eigen::VectorXd& y) const;
+    [[nodiscard]] Evaluation evaluate(const Eigen::VectorXd& y,
+                                      std::shared_ptr<const MobilityOperators> operators) const;
 
-    // E_c of the coat's edge, pN nm.
-    double line_energy(const MembraneState& state) const;
+    /// E_c of the coat's edge, pN nm.
+    [[nodiscard]] double line_energy(const MembraneState& state) const;
 
-    // Molecules that come onto the membrane, nm^2 of coat per us.
-    double exchanged_per_time(const Eigen::VectorXd& y) const;
+    /// Molecules that come onto the membrane, nm² of coat per µs.
+    [[nodiscard]] double exchanged_per_time(const Eigen::VectorXd& y) const;
 
-    // dF/dy at fixed operators, exact.
-    Eigen::MatrixXd jacobian(const Evaluation& evaluation) const;
+    /// dF/dy at fixed operators, exact.
+    [[nodiscard]] Eigen::MatrixXd jacobian(const Evaluation& evaluation) const;
 
-    // Absolute errors that count as one unit: `length` for coefficients of the curve, `concentration` for those of c.
-    Eigen::VectorXd error_scales(const Eigen::VectorXd& y, double length, double concentration) const;
+    /// Absolute errors that count as one unit: `length` for coefficients of the curve, `concentration` for those of c.
+    [[nodiscard]] Eigen::VectorXd error_scales(const Eigen::VectorXd& y, double length, double concentration) const;
 
   private:
     Parameters parameters_;
@@ -79,11 +81,11 @@ class MembraneDynamics {
     std::unique_ptr<FlowModel> flow_;
     MeshMotion mesh_;
 
-    Index free_radial() const { return space_.radial_count() - space_.fixed_radial(); }
-    Index free_axial() const { return space_.axial_count() - space_.fixed_axial(); }
-    Eigen::VectorXd pack(const Eigen::VectorXd& curve, const Eigen::VectorXd& moments) const;
-    Eigen::MatrixXd pack_rows(const Eigen::MatrixXd& curve_rows) const;
-    Eigen::MatrixXd pack_columns(const Eigen::MatrixXd& curve_columns) const;
+    [[nodiscard]] Index free_radial() const { return space_.radial_count() - space_.fixed_radial(); }
+    [[nodiscard]] Index free_axial() const { return space_.axial_count() - space_.fixed_axial(); }
+    [[nodiscard]] Eigen::VectorXd pack(const Eigen::VectorXd& curve, const Eigen::VectorXd& moments) const;
+    [[nodiscard]] Eigen::MatrixXd pack_rows(const Eigen::MatrixXd& curve_rows) const;
+    [[nodiscard]] Eigen::MatrixXd pack_columns(const Eigen::MatrixXd& curve_columns) const;
 };
 
 }  // namespace endoflow::boundary_integral

@@ -9,7 +9,7 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
-// int a B_i' B_j' + b B_i B_j over xi.
+// ∫ a B_i' B_j' + b B_i B_j over ξ.
 Eigen::MatrixXd one_dimensional_matrix(const MembraneSpace& space, const std::vector<BasisRow>& rows, Index dimension,
                                        double stiffness, double mass) {
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(dimension, dimension);
@@ -59,7 +59,7 @@ double MeshMotion::wanted_density(const CurvePoint& p, double c1) const {
     return std::sqrt(1.0 + bend + edge * edge);
 }
 
-// rho - l^2 rho'' = wanted: neighbouring elements differ by a factor of at most exp(h/l).
+// ρ - l² ρ'' = wanted: neighbouring elements differ by a factor of at most exp(h/l).
 std::vector<double> MeshMotion::filtered_density(const MembraneSamples& samples) const {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(space_.axial_count());
     for (std::size_t i = 0; i < space_.xi.size(); ++i) {
@@ -70,7 +70,7 @@ std::vector<double> MeshMotion::filtered_density(const MembraneSamples& samples)
     return values_at_points(space_.axial_rows, filter_.solve(right));
 }
 
-// int B' (N - xi)' dxi = int B' (rho g/total - 1) dxi; mirrored at both ends, the 1 has no part in the space.
+// ∫ B' (N - ξ)' dξ = ∫ B' (ρ g/total - 1) dξ; mirrored at both ends, the 1 has no part in the space.
 Eigen::VectorXd MeshMotion::numbers_ahead(const MembraneSamples& samples) const {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(space_.radial_count());
     const std::vector<double> density = filtered_density(samples);
@@ -103,7 +103,7 @@ Eigen::VectorXd MeshMotion::interpolate_tangential(const MembraneState& state, S
     return field;
 }
 
-// u.t = u.x'/g, and delta t = n (n.delta x')/g.
+// u.t = u.x'/g, and δt = n (n.δx')/g.
 MeshMotion::Slip MeshMotion::slip(double xi, const CurvePoint& p, double u_r, double u_z, double inflow) const {
     if (carrier_ == MeshCarrier::material) {
         return {-inflow * inflow_profile(xi), 0.0, 0.0, 0.0, 0.0, -inflow_profile(xi)};
@@ -131,8 +131,8 @@ MeshMotion::Derivatives MeshMotion::derivatives(const MembraneState& state, cons
     const double length = density_.curvature_length;
     const std::vector<double> density = filtered_density(samples);
 
-    // Variations of the unfiltered density against the axial functions, of int rho g B' and of its total; the last two
-    // first at fixed rho, with what a variation of rho adds to them.
+    // Variations of the unfiltered density against the axial functions, of ∫ ρ g B' and of its total; the last two
+    // first at fixed ρ, with what a variation of ρ adds to them.
     Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(axial_count, variables);
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(offset, variables);
     Eigen::MatrixXd right_by_density = Eigen::MatrixXd::Zero(offset, axial_count);
@@ -179,7 +179,7 @@ MeshMotion::Derivatives MeshMotion::derivatives(const MembraneState& state, cons
     const Eigen::MatrixXd variation =
         (antiderivative_.solve(std::move(right)) - (ahead_of_xi + identity_) * total_variation) / total;
 
-    // alpha t = alpha_0 x'/g - (N - xi) x'/(tau N') at the interpolation points, by (r, z, c), by the velocity (both
+    // α t = α_0 x'/g - (N - ξ) x'/(τ N') at the interpolation points, by (r, z, c), by the velocity (both
     // components) and by the inflow.
     const Index by_velocity = variables, by_inflow = variables + curve;
     const double rate = 1.0 / density_.relaxation_time;

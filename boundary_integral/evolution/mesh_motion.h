@@ -11,14 +11,14 @@
 
 namespace endoflow::boundary_integral {
 
-// Elements per arc length are proportional to
-//     rho = sqrt(1 + (curvature_length)^2 (kappa_m^2 + kappa_p^2) + (edge_length dc/ds)^2)
-// so that the coat's edge has as many elements as that length of a flat membrane, however narrow it is.
+/// Elements per arc length are proportional to
+///     ρ = √(1 + (curvature_length)² (κ_m² + κ_p²) + (edge_length dc/ds)²)
+/// so that the coat's edge has as many elements as that length of a flat membrane, however narrow it is.
 struct MeshDensity {
     double curvature_length;  // nm
     double edge_length;       // nm
-    double relaxation_time;   // us
-    double smoothing;         // rho is filtered over this length in xi, whatever the number of elements
+    double relaxation_time;   // µs
+    double smoothing;         // ρ is filtered over this length in ξ, whatever the number of elements
 };
 
 enum class MeshCarrier { material, normal_motion };
@@ -27,24 +27,24 @@ class MeshMotion {
   public:
     MeshMotion(const MembraneSpace& space, const MeshDensity& density, MeshCarrier carrier);
 
-    // Tangential velocity field added to the material velocity, as coefficients (curve_count), nm/us:
-    //     alpha t,  alpha = alpha_0 - (N - xi) g / (tau N'),  alpha_0 = -inflow xi^5 or -u.t
-    // N(xi): fraction of elements the density wants between the axis and xi; N(1) = 1.
-    Eigen::VectorXd tangential_velocity(const MembraneState& state, const MembraneSamples& samples,
-                                        const Eigen::VectorXd& velocity, double inflow) const;
+    /// Tangential velocity field added to the material velocity, as coefficients (curve_count), nm/µs:
+    ///     α t,  α = α_0 - (N - ξ) g / (τ N'),  α_0 = -inflow ξ⁵ or -u.t
+    /// N(ξ): fraction of elements the density wants between the axis and ξ; N(1) = 1.
+    [[nodiscard]] Eigen::VectorXd tangential_velocity(const MembraneState& state, const MembraneSamples& samples,
+                                                      const Eigen::VectorXd& velocity, double inflow) const;
 
-    // Its derivatives.
+    /// The derivatives of its coefficients.
     struct Derivatives {
-        Eigen::MatrixXd by_curve;          // curve_count x curve_count, at fixed c(xi), velocity and inflow
+        Eigen::MatrixXd by_curve;          // curve_count x curve_count, at fixed c(ξ), velocity and inflow
         Eigen::MatrixXd by_concentration;  // curve_count x axial_count
         Eigen::VectorXd by_inflow;         // curve_count; zero when the mesh follows the normal motion
         Eigen::MatrixXd by_velocity;       // curve_count x curve_count; empty when the mesh follows the material
     };
-    Derivatives derivatives(const MembraneState& state, const MembraneSamples& samples, const Eigen::VectorXd& velocity,
-                            double inflow) const;
+    [[nodiscard]] Derivatives derivatives(const MembraneState& state, const MembraneSamples& samples,
+                                          const Eigen::VectorXd& velocity, double inflow) const;
 
-    // N - xi as radial coefficients.
-    Eigen::VectorXd numbers_ahead(const MembraneSamples& samples) const;
+    /// N - ξ as radial coefficients.
+    [[nodiscard]] Eigen::VectorXd numbers_ahead(const MembraneSamples& samples) const;
 
   private:
     const MembraneSpace& space_;
@@ -52,31 +52,32 @@ class MeshMotion {
     MeshCarrier carrier_;
     std::vector<double> radial_points_, axial_points_;  // Greville points of the two spaces
     LuFactors radial_interpolation_, axial_interpolation_, filter_, antiderivative_;
-    Eigen::VectorXd identity_;  // xi itself in the radial space, as far as its ends let it
+    Eigen::VectorXd identity_;  // ξ itself in the radial space, as far as its ends let it
 
-    double wanted_density(const CurvePoint& p, double c1) const;
-    std::vector<double> filtered_density(const MembraneSamples& samples) const;  // at the Gauss points
-    // What carries the mesh off the material at one point, and its derivatives by x' and u.
+    [[nodiscard]] double wanted_density(const CurvePoint& p, double c1) const;
+    [[nodiscard]] std::vector<double> filtered_density(const MembraneSamples& samples) const;  // at the Gauss points
+    /// What carries the mesh off the material at one point, and its derivatives by x' and u.
     struct Slip {
-        double speed;           // alpha_0, nm/us
-        double by_r1, by_z1;    // 1/us
+        double speed;           // α_0, nm/µs
+        double by_r1, by_z1;    // 1/µs
         double by_u_r, by_u_z;  // 1
         double by_inflow;       // 1
     };
-    Slip slip(double xi, const CurvePoint& p, double u_r, double u_z, double inflow) const;
+    [[nodiscard]] Slip slip(double xi, const CurvePoint& p, double u_r, double u_z, double inflow) const;
     template <class Speed>
-    Eigen::VectorXd interpolate_tangential(const MembraneState& state, Speed speed) const;
+    [[nodiscard]] Eigen::VectorXd interpolate_tangential(const MembraneState& state, Speed speed) const;
 };
 
-// Spline coefficients from values at the Greville points of a space.
+/// Spline coefficients from values at the Greville points of a space.
 class Interpolation {
   public:
     explicit Interpolation(const SplineSpace& space);
-    Eigen::VectorXd operator()(const std::vector<double>& values) const;
+    [[nodiscard]] Eigen::VectorXd operator()(const std::vector<double>& values) const;
 
   private:
     LuFactors factors_;
 };
-Eigen::VectorXd interpolate(const SplineSpace& space, const std::vector<double>& values_at_greville_points);
+[[nodiscard]] Eigen::VectorXd interpolate(const SplineSpace& space,
+                                          const std::vector<double>& values_at_greville_points);
 
 }  // namespace endoflow::boundary_integral

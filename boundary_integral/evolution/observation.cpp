@@ -89,7 +89,7 @@ WallDistance wall_distance(const MembraneSpace& space, const MembraneSamples& sa
 }
 
 double EnergyBalance::residual() const {
-    constexpr double slowest = 1e-9;  // 1/us: what changes the energy more slowly is a membrane at rest
+    constexpr double slowest = 1e-9;  // 1/µs: what changes the energy more slowly is a membrane at rest
     return std::abs(energy_rate + dissipated_power - diffusive_power - external_power) /
            (std::abs(dissipated_power) + molecular_dissipation + std::abs(exchange_power) + slowest * energy);
 }
@@ -98,7 +98,7 @@ EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation&
     const MembraneSpace& space = dynamics.space();
     EnergyBalance balance{};
     balance.energy = two_pi * e.energy.energy;
-    // c' at fixed xi from the moments: M c' = m' - M' c, M' c = int phi c D(r g)[w] dxi with the mesh velocity w.
+    // c' at fixed ξ from the moments: M c' = m' - M' c, M' c = ∫ φ c D(r g)[w] dξ with the mesh velocity w.
     const Eigen::VectorXd w_r = e.mesh_velocity.head(space.radial_count());
     const Eigen::VectorXd w_z = e.mesh_velocity.tail(space.axial_count());
     Eigen::VectorXd right = e.rate.tail(space.axial_count());
@@ -108,7 +108,7 @@ EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation&
         const BasisRow& phi = space.axial_rows[i];
         const double growth = space.radial_rows[i].evaluate(w_r, 0) * p.g +
                               p.r / p.g * (p.r1 * space.radial_rows[i].evaluate(w_r, 1) + p.z1 * phi.evaluate(w_z, 1));
-        // Transport by the material alone leaves c constant along it: dc/dt at fixed xi = - v c'/g.
+        // Transport by the material alone leaves c constant along it: dc/dt at fixed ξ = - v c'/g.
         const double carried = -e.relative_velocity[i] * e.samples.c1[i] / p.g * p.r * p.g;
         for (std::size_t j = 0; j < 6; ++j) {
             right[phi.index[j]] -= space.weight[i] * phi.value[0][j] * e.samples.c[i] * growth;

@@ -24,25 +24,25 @@ namespace endoflow::boundary_integral {
 [[nodiscard]] WallDistance wall_distance(const MembraneSpace& space, const MembraneSamples& samples,
                                          const DomainParameters& domain);
 
-// Energy balance of a state: rate of E along the computed motion against the power given to the fluid, the energy that
-// inflowing membrane brings along and the energy that diffusion of the molecules brings.
+/// Energy balance of a state: rate of E along the computed motion against the power given to the fluid, the energy that
+/// inflowing membrane brings along and the energy that diffusion of the molecules brings.
 struct EnergyBalance {
-    double energy;                 // pN nm
-    double energy_rate;            // dE/dt, pN nm/us
-    double dissipated_power;       // int f.u dA, pN nm/us
-    double diffusive_power;        // dE/dt by all that changes c in the material, pN nm/us
-    double external_power;         // of the loads, pN nm/us
-    double molecular_dissipation;  // int M |grad mu|^2 of energetic coupling, pN nm/us
-    double exchange_power;         // dE/dt by molecules that come and go, pN nm/us
-    double residual() const;       // relative to the powers that only a motion, or exchange, has
+    double energy;                          // pN nm
+    double energy_rate;                     // dE/dt, pN nm/µs
+    double dissipated_power;                // ∫ f.u dA, pN nm/µs
+    double diffusive_power;                 // dE/dt by all that changes c in the material, pN nm/µs
+    double external_power;                  // of the loads, pN nm/µs
+    double molecular_dissipation;           // ∫ M |∇μ|² of energetic coupling, pN nm/µs
+    double exchange_power;                  // dE/dt by molecules that come and go, pN nm/µs
+    [[nodiscard]] double residual() const;  // relative to the powers that only a motion, or exchange, has
 };
-EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& evaluation);
+[[nodiscard]] EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& evaluation);
 
-// Samples the curve with all its fields at equal steps of xi, both ends included.
+/// Samples the curve with all its fields at equal steps of ξ, both ends included.
 class CurveSampler {
   public:
     CurveSampler(const MembraneSpace& space, Index intervals);
-    MembraneCurve operator()(const MembraneState& state, const FlowSolution& flow) const;
+    [[nodiscard]] MembraneCurve operator()(const MembraneState& state, const FlowSolution& flow) const;
 
   private:
     struct Point {
