@@ -72,15 +72,15 @@ std::string reached(const RunRecord& record) {
 }
 
 /// What follows the number of elements of the sharp engine: those it began with, tolerance, accuracy.
-std::string sharp_resolution(const Json& record) {
-    const Json& parameters = record.at("parameters");
-    const Json& notes = record.at("notes");
+std::string sharp_resolution(const RunRecord& record) {
+    const RunRecord& parameters = record.at("parameters");
+    const RunRecord& notes = record.at("notes");
     std::string text;
     if (notes.contains("elements_from") && notes.at("elements_from").size() > 1)
         text += fmt::format(" at the end, {} at the start", notes.at("elements_from").at(0).at("elements").get<long>());
     const double tolerance = notes.value("time_tolerance", parameters.at("time").at("tolerance").get<double>());
     text += fmt::format(", time tolerance {:g}", tolerance);
-    const Json& accuracy = record.at("accuracy");
+    const RunRecord& accuracy = record.at("accuracy");
     if (accuracy.contains("resolution"))
         text += fmt::format("; relative accuracy {:g} asked for, {:.1e} reached",
                             parameters.at("boundary_integral").at("accuracy").get<double>(),
