@@ -8,6 +8,7 @@
 
 namespace {
 
+using namespace endoflow;
 using namespace endoflow::boundary_integral;
 using namespace endoflow::boundary_integral::testing;
 
