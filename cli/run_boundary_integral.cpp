@@ -5,6 +5,7 @@
 #include "engine_run.h"
 #include "process.h"
 #include "shared/output/run_output.h"
+#include "shared/support/fast_blas.h"
 #include "shared/support/interruption.h"
 
 namespace endoflow::cli {
@@ -27,5 +28,6 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using namespace endoflow::cli;
+    endoflow::require_fast_blas(argv);
     return report(attempt([&] { return run(argc, argv); }));
 }

@@ -11,6 +11,7 @@
 #include "process.h"
 #include "shared/support/console.h"
 #include "shared/support/error.h"
+#include "shared/support/fast_blas.h"
 
 namespace endoflow::cli {
 
@@ -60,5 +61,6 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using namespace endoflow::cli;
+    endoflow::require_fast_blas(argv);
     return report(attempt([&] { return run(argc, argv); }));
 }

@@ -1,6 +1,7 @@
 #include "boundary_integral/evolution/refinement.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "boundary_integral/evolution/resolution_estimate.h"
 #include "shared/case/resolution.h"
@@ -13,7 +14,11 @@ namespace {
 // the start, for it gets coarser when the membrane flows in.
 constexpr double allowed_part = 0.5, initial_part = 0.01;
 
-// Four elements for three: the jumps fall to a sixth, the errors to a thirtieth.
+// Four elements for three: the jumps fall to a sixth, the errors to a thirtieth. Where errors do not even fall to a
+// half, there is a kink: the edge of a patch as narrow as the edge itself has a slope at the axis. Molecules that
+// spread smooth it at once, and no number of elements does.
+constexpr double least_fall = 0.5;
+
 Index more(Index elements) {
     return std::min<Index>((4 * elements + 2) / 3, most_elements);
 }
@@ -28,12 +33,16 @@ std::unique_ptr<MembraneDynamics> dynamics_with(const Parameters& parameters, In
 
 Index initial_elements(const Parameters& parameters) {
     if (parameters.boundary_integral.elements > 0) return parameters.boundary_integral.elements;
-    const double allowed = initial_part * accuracy_of_elements(parameters);
+    const double accuracy = accuracy_of_elements(parameters);
+    double before = std::numeric_limits<double>::infinity();
     for (Index elements = elements_asked_for(parameters);; elements = more(elements)) {
         if (elements == most_elements) return elements;
         const auto dynamics = dynamics_with(parameters, elements);
         const MembraneState state = dynamics->unpack(dynamics->initial_vector());
-        if (estimate_resolution(dynamics->space(), state).relative_error() <= allowed) return elements;
+        const double error = estimate_resolution(dynamics->space(), state).relative_error();
+        const bool kink = error > least_fall * before;
+        if (error <= (kink ? allowed_part : initial_part) * accuracy) return elements;
+        before = error;
     }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "boundary_integral/modes/engine_state.h"
+#include "boundary_integral/support/parallel.h"
 #include "shared/support/error.h"
 
 namespace endoflow::boundary_integral {
@@ -62,21 +63,28 @@ AlongRun::AlongRun(const RecordedRun& run, int first_mode, int last_mode)
     }
 }
 
+void AlongRun::for_modes(const std::function<void(int mode, std::size_t index)>& work) const {
+    const int threads = thread_count(parameters_.boundary_integral.threads);
+    parallel_parts(last_mode() - first_mode_ + 1, threads, [&](Index begin, Index end) {
+        for (Index k = begin; k < end; ++k) work(first_mode_ + static_cast<int>(k), static_cast<std::size_t>(k));
+    });
+}
+
 Moment AlongRun::moment(double time) const {
     Moment result{time, dynamics_.evaluate(trajectory_.state(time)), nullptr, {}};
     result.membrane =
         std::make_unique<LinearisedMembrane>(parameters_, surroundings_, engine_state(dynamics_, result.evaluation));
-    for (int mode = first_mode_; mode <= last_mode(); ++mode) result.rates.push_back(result.membrane->rates(mode));
+    result.rates.resize(static_cast<std::size_t>(last_mode() - first_mode_ + 1));
+    for_modes([&](int mode, std::size_t k) { result.rates[k] = result.membrane->rates(mode); });
     return result;
 }
 
 std::vector<LinearRate> AlongRun::mesh_rates(const Moment& moment) const {
-    std::vector<LinearRate> result;
-    for (int mode = first_mode_; mode <= last_mode(); ++mode) {
-        result.push_back(mesh_rate(*moment.membrane, surroundings_.space(mode),
-                                   moment.rates[static_cast<std::size_t>(mode - first_mode_)],
-                                   moment.evaluation.relative_velocity, parameters_.molecules.interface_width));
-    }
+    std::vector<LinearRate> result(moment.rates.size());
+    for_modes([&](int mode, std::size_t k) {
+        result[k] = mesh_rate(*moment.membrane, surroundings_.space(mode), moment.rates[k],
+                              moment.evaluation.relative_velocity, parameters_.molecules.interface_width);
+    });
     return result;
 }
 

@@ -3,6 +3,7 @@
 // A recorded run followed again: its axisymmetric motion as a function of time, and the linearised membrane at any
 // moment of it.
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -49,6 +50,9 @@ class AlongRun {
     Surroundings surroundings_;
     BaseTrajectory trajectory_;
     double distance_ = 0.0;
+
+    /// Calls work(mode, its index) for each mode, in as many threads as the run asks for.
+    void for_modes(const std::function<void(int mode, std::size_t index)>& work) const;
 };
 
 }  // namespace endoflow::boundary_integral

@@ -38,12 +38,14 @@ def base_member(options, output):
 def refined_members(member):
     """The runs that certify a finished one."""
     from comparisons.studies.members import Member, read_record, resolved_parameters
-    from comparisons.studies.refined_runs import finer_settings, thinner_settings
+    from comparisons.studies.refined_runs import denser_settings, finer_settings, thinner_settings
 
     notes = read_record(member.directory).get("notes", {})
     wanted = {"finer": finer_settings(member.engine, member.parameters, notes)}
     if member.engine == "phase-field":
         wanted["thinner"] = thinner_settings(member.parameters)
+    else:
+        wanted["denser"] = denser_settings(member.parameters, notes)
     members = []
     for name, changes in wanted.items():
         settings = (*member.settings, *changes)
@@ -56,11 +58,16 @@ def refined_members(member):
 def write_certificate(member, refined):
     """Put the certificate into the run's run.json; returns it."""
     import endoflow
-    from comparisons.measures.certificate import certificate
+    from comparisons.measures.certificate import certificate, layer_parts, sharp_parts
     from comparisons.studies.refined_runs import THICKNESS_RATIO
 
     runs = {other.name: endoflow.load(other.directory) for other in refined}
-    found = certificate(endoflow.load(member.directory), runs["finer"], runs.get("thinner"), THICKNESS_RATIO)
+    run = endoflow.load(member.directory)
+    if member.engine == "phase-field":
+        parts = layer_parts(run, runs["finer"], runs["thinner"], THICKNESS_RATIO)
+    else:
+        parts = sharp_parts(run, runs["denser"], runs["finer"])
+    found = certificate(run, parts)
     found["runs"] = {other.name: str(other.directory.relative_to(member.directory)) for other in refined}
     path = member.directory / "run.json"
     record = json.loads(path.read_text(encoding="utf-8"))

@@ -36,24 +36,41 @@ def common_time(runs):
     return min(float(run.history["time_us"][-1]) for run in runs)
 
 
-def certificate(run, finer, thinner=None, thickness_ratio=1.0):
+def sharp_parts(run, denser, finer):
+    """What a sharp run's error is made of, for certificate(): more elements first, then shorter steps as well.
+
+    Errors of space and time may have opposite signs: a run that is right because of it would seem to have none.
+    """
+    return {"space": (run, denser, 1.0), "time": (denser, finer, 1.0)}
+
+
+def layer_parts(run, finer, thinner, thickness_ratio):
+    """The same of a diffuse run; thinner: with ε times thickness_ratio."""
+    to_the_limit = 1.0 / (1.0 - thickness_ratio**ORDER_IN_EPSILON)
+    return {"space and time": (run, finer, 1.0), "layer": (run, thinner, to_the_limit)}
+
+
+def certificate(run, parts):
     """What run.json keeps under `certificate`.
 
-    finer: the run with space and time refined. thinner: a run of the diffuse engine with ε times thickness_ratio.
-    A quantity that not all of them have gets no interval.
+    parts: {name: (Run, refined Run, how many times their difference)}, each an error that is added with its size. A
+    quantity that not all of the runs have gets no interval.
     """
-    others = {"space and time": finer} | ({"layer": thinner} if thinner else {})
-    time = common_time([run, *others.values()])
-    found = {part: values(other, time) for part, other in others.items()}
-    scale = {"space and time": 1.0, "layer": 1.0 / (1.0 - thickness_ratio**ORDER_IN_EPSILON) if thinner else 0.0}
+    time = common_time([each for coarse, refined, _ in parts.values() for each in (coarse, refined)])
     entries = {}
     for name, value in values(run, time).items():
-        if value is None or any(other[name] is None for other in found.values()):
+        differences = {part: _difference(*pair, name, time) for part, (*pair, _) in parts.items()}
+        if value is None or None in differences.values():
             continue
-        parts = {part: SAFETY * scale[part] * abs(other[name] - value) for part, other in found.items()}
+        errors = {part: SAFETY * parts[part][2] * difference for part, difference in differences.items()}
         unit, title = QUANTITIES[name]
-        entries[name] = {"title": title, "value": value, "error": sum(parts.values()), "unit": unit, "parts": parts}
+        entries[name] = {"title": title, "value": value, "error": sum(errors.values()), "unit": unit, "parts": errors}
     return {"time_us": time, "safety": SAFETY, "values": entries}
+
+
+def _difference(run, refined, name, time):
+    found = [values(each, time)[name] for each in (run, refined)]
+    return None if None in found else abs(found[1] - found[0])
 
 
 def in_words(entry):

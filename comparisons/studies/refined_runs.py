@@ -21,6 +21,13 @@ def finer_settings(engine, parameters, notes):
     return (*(f"{key}={value:.12g}" for key, value in refined.items()), *_no_output(parameters))
 
 
+def denser_settings(parameters, notes):
+    """The same case of the sharp engine with space alone refined, as finer_settings() refines it."""
+    refined = _finer_sharp(parameters, notes)
+    refined["time.tolerance"] /= STRICTER
+    return (*(f"{key}={value:.12g}" for key, value in refined.items()), *_no_output(parameters))
+
+
 def thinner_settings(parameters):
     """The same case of the diffuse engine with a thinner layer; cells whose size the case leaves open follow it."""
     own = parameters["phase_field"]

@@ -47,6 +47,19 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertTrue(result.stdout)
 
+    def test_blas_knows_the_processor(self):
+        """OpenBLAS takes processors newer than itself for one with SSE3 alone, and says which kernels it has loaded."""
+        flags = Path("/proc/cpuinfo").read_text(encoding="utf-8").split()
+        if not {"avx2", "fma"} <= set(flags):
+            self.skipTest("a processor without AVX2")
+        environment = {name: value for name, value in os.environ.items() if name != "OPENBLAS_CORETYPE"}
+        environment["OPENBLAS_VERBOSE"] = "2"
+        for words in (["run", "boundary-integral", "--help"], ["modes", "--help"]):
+            with self.subTest(words):
+                result = subprocess.run([PROGRAM, *words], env=environment, capture_output=True, text=True, timeout=60)
+                loaded = re.findall(r"^Core: (\S+)", result.stdout + result.stderr, re.MULTILINE)
+                self.assertNotIn("Prescott", loaded[-1:], result.stderr)
+
     def test_bad_command_lines(self):
         self.assert_refused(endoflow("rnu"), 2, "did you mean 'run'")
         self.assert_refused(endoflow("run", "phase-feild"), 2, "did you mean 'phase-field'")

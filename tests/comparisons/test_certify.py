@@ -11,9 +11,9 @@ from pathlib import Path
 
 import locations  # noqa: F401
 import synthetic
-from comparisons.measures.certificate import SAFETY, certificate, in_words
+from comparisons.measures.certificate import SAFETY, certificate, in_words, layer_parts, sharp_parts
 from comparisons.page.run_report import run_html
-from comparisons.studies.refined_runs import finer_settings, thinner_settings
+from comparisons.studies.refined_runs import denser_settings, finer_settings, thinner_settings
 from studies import StudyTest
 
 import endoflow
@@ -43,7 +43,7 @@ class Numbers(unittest.TestCase):
 
     def test_error_is_the_distance_to_the_finer_run(self):
         coarse, fine = self.run_at("coarse", 0.1), self.run_at("fine", 0.0)
-        found = certificate(coarse, fine)
+        found = certificate(coarse, sharp_parts(coarse, fine, fine))
         self.assertEqual(found["time_us"], 1.0)
         for name in ("neck_radius_nm", "membrane_area_nm2"):
             distance = abs(coarse.history[name][-1] - fine.history[name][-1])
@@ -52,10 +52,17 @@ class Numbers(unittest.TestCase):
         self.assertGreater(budding["error"], 0)
         self.assertEqual(budding["value"], coarse.event_time("budding"))
 
+    def test_errors_that_cancel_are_added(self):
+        """Elements move the membrane one way, steps the other: a run that is right by that is not certified to be."""
+        run, denser, fine = self.run_at("run", 0.0), self.run_at("denser", 0.1), self.run_at("fine", 0.0)
+        found = certificate(run, sharp_parts(run, denser, fine))["values"]["membrane_area_nm2"]
+        distance = abs(denser.history["membrane_area_nm2"][-1] - fine.history["membrane_area_nm2"][-1])
+        self.assertAlmostEqual(found["error"], 2 * SAFETY * distance, delta=1e-9 * distance)
+
     def test_a_layer_is_extrapolated_with_its_square(self):
         """The membrane lies 0.1 ε² off: at second order what two layers say of the limit is exact up to curvature."""
         thick, thin, limit = self.run_at("thick", 0.1), self.run_at("thin", 0.05), self.run_at("limit", 0.0)
-        found = certificate(thick, thick, thin, 0.5**0.5)["values"]["neck_radius_nm"]
+        found = certificate(thick, layer_parts(thick, thick, thin, 0.5**0.5))["values"]["neck_radius_nm"]
         self.assertEqual(found["parts"]["space and time"], 0.0)
         exact = abs(thick.history["neck_radius_nm"][-1] - limit.history["neck_radius_nm"][-1])
         self.assertAlmostEqual(found["parts"]["layer"] / SAFETY, exact, delta=0.02 * exact)
@@ -63,7 +70,8 @@ class Numbers(unittest.TestCase):
     def test_what_a_run_has_not_gets_no_interval(self):
         flat = lambda t: synthetic.budding_membrane(0.1 * t, 1.0, 0.0)  # noqa: E731
         synthetic.write_run(self.scratch / "flat", "boundary-integral", flat, [0.0, 1.0])
-        found = certificate(endoflow.load(self.scratch / "flat"), self.run_at("fine", 0.0))
+        flat, fine = endoflow.load(self.scratch / "flat"), self.run_at("fine", 0.0)
+        found = certificate(flat, sharp_parts(flat, fine, fine))
         self.assertNotIn("budding_time_us", found["values"])
 
     def test_runs_that_the_neck_ends(self):
@@ -71,7 +79,7 @@ class Numbers(unittest.TestCase):
         coarse, fine = self.run_at("coarse", 0.1), self.run_at("fine", 0.0)
         for run, reason in ((coarse, "budded"), (fine, "neck-closed")):
             run.record["exit_reason"] = reason
-        found = certificate(coarse, fine)
+        found = certificate(coarse, sharp_parts(coarse, fine, fine))
         self.assertIsNone(found["time_us"])
         self.assertEqual([*found["values"]], ["budding_time_us", "membrane_area_nm2"])
 
@@ -91,6 +99,9 @@ class Settings(unittest.TestCase):
         found = self.settings("boundary-integral")
         self.assertEqual(found["boundary_integral.elements"], "48")
         self.assertEqual(float(found["time.tolerance"]), 1e-5)
+        denser = dict(text.split("=") for text in denser_settings(synthetic.parameters(), {}))
+        self.assertEqual(denser["boundary_integral.elements"], "48")
+        self.assertEqual(float(denser["time.tolerance"]), 1e-4)
 
     def test_cells_of_the_diffuse_engine(self):
         found = self.settings("phase-field", {"cell_size_nm": 1.2})
@@ -111,7 +122,7 @@ class Command(StudyTest):
     def test_sharp(self):
         result = self.certify("boundary-integral", "--set", "time.tolerance=2e-3")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(self.runs(), ["out fresh", "out/certify/finer fresh"])
+        self.assertEqual(self.runs(), ["out fresh", "out/certify/denser fresh", "out/certify/finer fresh"])
         self.assertRegex(result.stdout, r"budding +[\d.]+ ± [\d.]+ µs")
         self.assertGreater(self.certificate()["values"]["neck_radius_nm"]["error"], 0)
         page = run_html(endoflow.load(self.scratch / "out"), {}, self.scratch)
@@ -145,7 +156,7 @@ class Command(StudyTest):
         self.runs()
         (self.scratch / "case.toml").write_text("")
         self.assertEqual(self.certify("boundary-integral").returncode, 0)
-        self.assertEqual(self.runs(), ["out restart", "out/certify/finer fresh"])
+        self.assertEqual(self.runs(), ["out restart", "out/certify/denser fresh", "out/certify/finer fresh"])
 
 
 class Coverage(unittest.TestCase):
