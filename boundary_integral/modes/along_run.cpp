@@ -74,7 +74,7 @@ Moment AlongRun::moment(double time) const {
     Moment result{time, dynamics_.evaluate(trajectory_.state(time)), nullptr, {}};
     result.membrane =
         std::make_unique<LinearisedMembrane>(parameters_, surroundings_, engine_state(dynamics_, result.evaluation));
-    result.rates.resize(static_cast<std::size_t>(last_mode() - first_mode_ + 1));
+    result.rates.resize(static_cast<std::size_t>(last_mode() - first_mode_) + 1);
     for_modes([&](int mode, std::size_t k) { result.rates[k] = result.membrane->rates(mode); });
     return result;
 }

@@ -92,8 +92,6 @@ TEST_CASE("a patch narrower than its edge gets elements for its shape, not for t
     parameters.molecules.patch_radius = 2;  // nm; the edge is 3.4 nm wide: its slope at the axis is a kink there
     // The kink's estimate falls with h² alone: a hundredth of the accuracy would take 304 elements.
     CHECK(initial_elements(parameters) < 2 * elements_asked_for(parameters));
-    parameters.molecules.interface_width = 0.3;  // no kink: as before, what the initial edge needs
-    CHECK(initial_elements(parameters) == elements_asked_for(parameters));
 }
 
 TEST_CASE("elements are added where the estimate asks for them, up to the most there may be", "[resolution]") {
