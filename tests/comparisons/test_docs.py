@@ -177,7 +177,11 @@ class Checker(unittest.TestCase):
     def test_exit_codes(self):
         here = locations.ROOT / "README.md"
         with tempfile.TemporaryDirectory() as scratch:
+            tools = Path(scratch) / check.TOOLS
+            tools.mkdir()
+            (tools / "python3").symlink_to(sys.executable)
             for kind, mark, text, problem in (
+                ("sh", "", "python3 -m venv --without-pip own; own/bin/python3 -V", ""),
                 ("sh", "", "exit 3", "exit code 3 instead of 0"),
                 ("sh", "fails with 3: reason", "exit 3", ""),
                 ("sh", "", "false | true", "exit code 1"),

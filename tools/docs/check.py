@@ -31,7 +31,7 @@ def readable(block):
 
 def environment(build):
     """The environment of the commands: BUILD on the path, so that `endoflow` is found as when installed."""
-    own = {"PATH": f"{TOOLS}:{build}:{os.environ['PATH']}", "PYTHONPATH": "python", "MPLBACKEND": "Agg"}
+    own = {"PATH": f"{build}:{os.environ['PATH']}", "PYTHONPATH": "python", "MPLBACKEND": "Agg"}
     if os.geteuid() == 0:  # OpenMPI refuses to run as root unless told twice that this is meant
         own |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     return {**os.environ, **own}
@@ -50,10 +50,12 @@ def run(block, scratch, build):
     """Run a block; returns what is wrong, or ""."""
     text = block.text if block.kind == "sh" else f"python3 -c {shlex.quote(block.text)}"
     command = ["bash", "-e", "-o", "pipefail", "-c", text]
+    own = environment(build)
+    own["PATH"] = f"{Path(scratch) / TOOLS}:{own['PATH']}"  # absolute: a virtual environment refers to the Python that made it
     started = time.monotonic()
     try:
         process = subprocess.run(
-            command, cwd=scratch, env=environment(build), capture_output=True, text=True, timeout=TIME_LIMIT
+            command, cwd=scratch, env=own, capture_output=True, text=True, timeout=TIME_LIMIT
         )
     except subprocess.TimeoutExpired:
         return f"did not end within {TIME_LIMIT} s"
