@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "phasefield/driver/clearance.h"
 #include "phasefield/driver/history.h"
@@ -108,6 +109,7 @@ void TimeLoop::keep(const StepOutcome& outcome, double tau) {
     contour_ = outcome.contour;
     time_ += tau;
     record(tau, outcome.diagnostics);
+    note_solver();
     watch_neck(tau);
 }
 
@@ -133,6 +135,12 @@ void TimeLoop::record(double tau, const StepDiagnostics& diagnostics) {
     last_loss_ = loss;
     output_.record_step(make_history_row({time_, tau, diagnostics, scheme_->integrate(), observables_, residual,
                                           molecules_, scheme_->unknowns(), scheme_->cells()}));
+}
+
+void TimeLoop::note_solver() const {
+    auto counts = nlohmann::ordered_json::object();
+    for (const auto& [name, value] : scheme_->solver_counts()) counts[name] = static_cast<std::int64_t>(value);
+    if (!counts.empty()) output_.note("solver", counts);
 }
 
 double TimeLoop::neck_radius_at(double time) const {

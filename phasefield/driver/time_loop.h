@@ -30,6 +30,7 @@ class TimeLoop {
     /// The mesh follows the membrane, once the last step's output is written.
     void follow();
     void record(double tau, const StepDiagnostics& diagnostics);
+    void note_solver() const;
     void watch_neck(double tau);
     void record(const NeckEvent& event);
     /// At a time within the last step [nm]; 0 where the membrane has come apart, infinite without a neck.

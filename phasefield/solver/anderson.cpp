@@ -3,7 +3,10 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_tools.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "phasefield/fem/reduction.h"
 
 namespace endoflow::phasefield {
 
@@ -13,14 +16,15 @@ constexpr double linearly_dependent = 1e-8;  // part of a change that is left be
 
 }  // namespace
 
-AndersonMixing::AndersonMixing(const Space& space, const Vector& first) {
+AndersonMixing::AndersonMixing(const Space& space, const Vector& first, const std::vector<double>& least) {
     weight_.reinit(first, false);
     const auto fields = dealii::DoFTools::locally_owned_dofs_per_component(space.dofs);
-    for (const auto& unknowns : fields) {
-        double square = 0;
-        for (const auto i : unknowns) square += first(i) * first(i);
-        square = dealii::Utilities::MPI::sum(square, first.get_mpi_communicator());
-        for (const auto i : unknowns) weight_(i) = square > 0 ? 1 / square : 0;
+    for (std::size_t field = 0; field < fields.size(); ++field) {
+        double square = 0, smallest = static_cast<double>(fields[field].n_elements()) * least[field] * least[field];
+        for (const auto i : fields[field]) square += first(i) * first(i);
+        sum_over_processes({&square, &smallest}, first.get_mpi_communicator());
+        square = std::max(square, smallest);
+        for (const auto i : fields[field]) weight_(i) = square > 0 ? 1 / square : 0;
     }
 }
 

@@ -11,10 +11,11 @@ namespace endoflow::phasefield {
 /// by the factors of an earlier step this finds the few directions in which those factors no longer serve.
 class AndersonMixing {
   public:
-    /// The norm of an increment is that of its fields' l² norms, each relative to that of `first`, the first increment.
-    AndersonMixing(const Space& space, const Vector& first);
+    /// The norm of an increment is that of its fields' l² norms, each relative to that of `first`, the first increment,
+    /// or, where that is round-off, to `least[field]` per unknown.
+    AndersonMixing(const Space& space, const Vector& first, const std::vector<double>& least);
 
-    /// The norm above: √(number of fields) for `first` itself. Collective.
+    /// The norm above: at most √(number of fields) for `first` itself. Collective.
     [[nodiscard]] double norm(const Vector& increment) const;
 
     /// x becomes the next iterate; `increment` is d(x). Ghost values of x are updated. Collective.

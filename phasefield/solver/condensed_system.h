@@ -40,7 +40,7 @@ class CondensedSystem {
     [[nodiscard]] bool has_factors() const { return system_.has_factors(); }
     void solve(const Space& space, Vector& solution);
     void apply_factors(const Space& space, Vector& solution);
-    [[nodiscard]] unsigned int factorisations() const { return system_.factorisations(); }
+    [[nodiscard]] SubdomainSystem::Index shared_unknowns() const { return system_.shared_unknowns(); }
 
   private:
     using Dense = dealii::LAPACKFullMatrix<double>;

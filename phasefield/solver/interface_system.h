@@ -25,6 +25,8 @@ class InterfaceSystem {
     [[nodiscard]] bool factorise(const dealii::FullMatrix<double>& own);
     /// From the own part of the right-hand side to the own part of the solution.
     void solve(dealii::Vector<double>& own);
+    /// Of all processes' unknowns together.
+    [[nodiscard]] Index size() const { return size_; }
 
   private:
     using Dense = dealii::LAPACKFullMatrix<double>;
@@ -32,7 +34,7 @@ class InterfaceSystem {
     MPI_Comm communicator_;
     Index most_dense_;
     std::vector<Index> numbers_;
-    Index size_ = 0;  // of all processes' unknowns together
+    Index size_ = 0;
     bool few_ = true;
     Dense dense_;
     dealii::Vector<double> dense_values_;

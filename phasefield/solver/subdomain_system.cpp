@@ -124,7 +124,6 @@ void SubdomainSystem::require_solved(bool own) const {
 
 void SubdomainSystem::factorise() {
     factors_valid_ = false;
-    ++factorisations_;
     dealii::FullMatrix<double> left;
     require_solved(factors_->factorise(matrix_, left));
     require_solved(interface_.factorise(left));

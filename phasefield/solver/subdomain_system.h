@@ -34,7 +34,6 @@ class SubdomainSystem {
     [[nodiscard]] Precision precision() const { return precision_; }
     void forget_factors() { factors_valid_ = false; }
     [[nodiscard]] bool has_factors() const { return factors_valid_; }
-    [[nodiscard]] unsigned int factorisations() const { return factorisations_; }
     /// New factors, and the solution of all own cells. Collective, with the same errors on all processes.
     /// Throws SolverError("linear-solver", …) when the factorisation fails, ("not-a-number", …) when the right-hand
     /// side or the result is not finite.
@@ -43,6 +42,8 @@ class SubdomainSystem {
     void apply_factors();
     /// The solution on an own cell, constraints satisfied.
     void values(std::size_t cell, dealii::Vector<double>& out) const;
+    /// Of all processes together.
+    [[nodiscard]] Index shared_unknowns() const { return interface_.size(); }
 
   private:
     void number(const std::vector<std::vector<Index>>& cells, const dealii::IndexSet& owned,
@@ -67,7 +68,6 @@ class SubdomainSystem {
     std::unique_ptr<MumpsFactors> factors_;
     InterfaceSystem interface_;
     bool factors_valid_ = false;
-    unsigned int factorisations_ = 0;
 };
 
 }  // namespace endoflow::phasefield

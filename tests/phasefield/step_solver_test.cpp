@@ -55,13 +55,29 @@ TEST_CASE("Anderson's acceleration finds the directions in which the iteration f
         return largest;
     };
     distance();
-    AndersonMixing mixing(space, increment);
+    AndersonMixing mixing(space, increment, {0, 0});
     // Four different rates: like GMRES, the method ends after as many changes, and one iteration to see the first.
     for (int k = 0; k < 5; ++k) {
         CHECK(distance() > 1e-6);
         mixing.advance(x, increment);
     }
     CHECK(distance() < 1e-10);
+}
+
+TEST_CASE("a membrane at rest takes one factorisation and stays at rest", "[newton]") {
+    // Flat, without spontaneous curvature, molecules that nothing moves: all changes are round-off, which does not
+    // shrink from one iteration to the next.
+    Parameters p = small_case();
+    p.membrane.spontaneous_curvature = 0;
+    p.molecules.transport = Transport::advection;
+    ProductionScheme scheme(p, MPI_COMM_SELF);
+    scheme.start();
+    double time = 0;
+    keep_steps(scheme, time, 3, 2e-5);
+    CHECK(scheme.factorisations() == 1);
+    const auto outcome = scheme.attempt(time, 2e-5);
+    CHECK(outcome.contour.curve.z.front() == Approx(p.domain.membrane_height).epsilon(1e-12));
+    CHECK(outcome.diagnostics.bending_energy == Approx(0).margin(1e-12));
 }
 
 TEST_CASE("a step with the factors of another one ends where its own factors lead", "[newton]") {

@@ -58,6 +58,8 @@ class Scheme {
                               double time) const = 0;
     /// Numbers of the scheme that are no parameters, for run.json.
     [[nodiscard]] virtual std::vector<NamedNumber> constants() const { return {}; }
+    /// Counts of what its solver has done so far, restarts included, for run.json.
+    [[nodiscard]] virtual std::vector<NamedNumber> solver_counts() const { return {}; }
     [[nodiscard]] virtual double unknowns() const = 0;
     [[nodiscard]] virtual double cells() const = 0;
 };

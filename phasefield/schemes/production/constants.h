@@ -42,6 +42,7 @@ inline constexpr Constant constants[] = {
     {"monotonic_square", -1.25, "", "H_m stays within ±½ from here on"},
     {"equal_viscosities", 1e-3, "", "relative difference below which the excess fluidity is round-off"},
     {"smallest_fluidity", 0.5, "", "in the layer, of the smaller one, with harmonic means"},
+    {"rim_half_width", 4.5, "ε", "where ψ and G are held at the rim: the layer as far as it weighs anything"},
     // The past of a step (past.cpp)
     {"last_normal_below", 1e-3, "(1 − φ²)²", "below it the last solution's closest normal takes over"},
     {"last_molecules_normal_below", 1e-4, "(1 − φ²)²",
@@ -73,6 +74,7 @@ inline constexpr Constant constants[] = {
     {"most_factorisations", 4, "", "in one step"},
     {"fast_contraction", 0.5, "", "of the changes by new factors: below it the next change can be foreseen"},
     {"largest_rest", 0.01, "", "of the first increment, in all fields: b follows ψ's second derivatives"},
+    {"round_off", 1e-6, "a field's size", "first increments below it count as that large: at rest they are noise"},
     {"most_divergence", 10, "", "of a change beyond the first one, where Newton's method gives up"},
     // The mesh (refinement.cpp, mesh_following.cpp)
     {"cell_per_epsilon", 4.0 / 3, "ε",

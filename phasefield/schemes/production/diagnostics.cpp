@@ -112,23 +112,26 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
     return measure_solution(space, energy, step, solution, solution, at_rest, solution);
 }
 
-double molecules_of(const Space& space, const StepNumbers& step, const Vector& solution) {
+std::vector<double> molecules_of(const Space& space, const StepNumbers& step, const std::vector<Vector>& solutions) {
     const dealii::QGauss<2> quadrature(gauss_points(step.numerics));
     ComponentField psi(space, distance, quadrature), c(space, molecule_density, quadrature);
-    double sum = 0;
+    std::vector<double> sums(solutions.size());
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         const CellBox box = cell_box(cell);
-        const auto &position = psi.on(cell, box, solution), &density = c.on(cell, box, solution);
-        for (unsigned int q = 0; q < quadrature.size(); ++q) {
-            const auto& x = quadrature.point(q);
-            const double epsilon = step.thickness_at(cell->active_cell_index(), box, x[0], x[1]).value;
-            const double weight = membrane_density(layer_profile(position.value[q], epsilon), step.weight);
-            const double r = box.r0 + box.hr * x[0];
-            sum += two_pi * quadrature.weight(q) * box.hr * box.hz * r * weight * density.value[q];
+        for (std::size_t j = 0; j < solutions.size(); ++j) {
+            const auto &position = psi.on(cell, box, solutions[j]), &density = c.on(cell, box, solutions[j]);
+            for (unsigned int q = 0; q < quadrature.size(); ++q) {
+                const auto& x = quadrature.point(q);
+                const double epsilon = step.thickness_at(cell->active_cell_index(), box, x[0], x[1]).value;
+                const double weight = membrane_density(layer_profile(position.value[q], epsilon), step.weight);
+                const double r = box.r0 + box.hr * x[0];
+                sums[j] += two_pi * quadrature.weight(q) * box.hr * box.hz * r * weight * density.value[q];
+            }
         }
     }
-    return dealii::Utilities::MPI::sum(sum, space.dofs.get_communicator());
+    dealii::Utilities::MPI::sum(sums, space.dofs.get_communicator(), sums);
+    return sums;
 }
 
 double layer_increment(const Space& space, const StepNumbers& step, const Vector& increment, const Vector& solution) {

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <optional>
 
+#include "phasefield/schemes/production/constants.h"
+#include "shared/model/bending_model.h"
+#include "shared/model/time_scale.h"
+
 namespace endoflow::phasefield::production {
 
 namespace {
@@ -11,6 +15,8 @@ namespace {
 using Held = std::optional<double>;
 using BoundaryId = dealii::types::boundary_id;
 using Numerics = PhaseFieldParameters;
+
+constexpr double rim_half_width = constant("rim_half_width");
 
 unsigned int degree_of(int degree) {
     return static_cast<unsigned int>(degree);
@@ -21,7 +27,7 @@ bool at_rim(BoundaryId boundary, double above, double half_width) {
     return boundary == side && std::abs(above) * (1 - 1e-12) <= half_width;
 }
 double layer_half_width(const Parameters& p) {
-    return std::max(p.domain.pin_half_width, p.phase_field.band_width * p.phase_field.epsilon);
+    return std::max(p.domain.pin_half_width, rim_half_width * p.phase_field.epsilon);
 }
 
 bool without_flow(const Parameters& p) {
@@ -109,6 +115,27 @@ std::vector<unsigned int> field_degrees(const PhaseFieldParameters& p) {
     std::vector<unsigned int> degrees;
     for (const auto& unknown : unknowns()) degrees.push_back(unknown.degree(p));
     return degrees;
+}
+
+Scales scales(const Parameters& p) {
+    const BendingModel model(p.membrane);
+    const double length = size_of_membrane(p.domain);
+    return {length, p.phase_field.epsilon, length / natural_time(p),
+            std::max(model.stiffness(0).value, model.stiffness(1).value)};
+}
+
+std::array<double, n_fields> field_sizes(const Scales& by) {
+    const double R = by.length, tension_size = by.stiffness / (R * R);
+    std::array<double, n_fields> out{};
+    out[velocity_r] = out[velocity_z] = by.speed;
+    out[pressure] = tension_size / R;
+    out[pressure_layer] = out[tension] = tension_size;
+    out[distance] = R;
+    out[normal_force] = by.stiffness / (R * by.thickness * by.thickness);  // of what bends over ε
+    out[moment] = by.stiffness / R;
+    out[molecule_density] = out[membrane_stretch] = 1;
+    out[molecule_potential] = 1 / by.thickness;
+    return out;
 }
 
 Vector initial_fields(const Space& space, const Parameters& p, const MembraneEnergy& energy) {

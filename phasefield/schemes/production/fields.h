@@ -49,6 +49,18 @@ struct Unknown {
     bool (*switched_off)(const Parameters&) = nullptr;
 };
 
+/// By what the sizes of the fields are measured.
+struct Scales {
+    double length;     // R, of the problem [nm]
+    double thickness;  // ε [nm]
+    double speed;      // R over the natural time [nm/µs]
+    double stiffness;  // β, the larger one [pN nm]
+};
+Scales scales(const Parameters& parameters);
+
+/// In the order of Field, how large the fields are in a membrane that is bent over the size of the problem.
+std::array<double, n_fields> field_sizes(const Scales& scales);
+
 /// In the order of Field; the space, its constraints, the start and the output read this table.
 const std::array<Unknown, n_fields>& unknowns();
 

@@ -89,9 +89,9 @@ void ProductionScheme::distribute() {
 }
 
 void ProductionScheme::restore_molecules() {
-    const double now = molecules_of(space_, numbers_, solutions_.front());
-    if (now <= 0) return;
-    for (auto& solution : solutions_) scale_component(space_, molecule_density, integrals_.molecules / now, solution);
+    const auto now = molecules_of(space_, numbers_, solutions_);
+    for (std::size_t j = 0; j < now.size(); ++j)
+        if (now[j] > 0) scale_component(space_, molecule_density, masses_[j] / now[j], solutions_[j]);
 }
 
 void ProductionScheme::foresee_thickness(double tau) {
@@ -127,7 +127,7 @@ StepOutcome ProductionScheme::start() {
     solutions_ = {solution};
     solutions_.front().update_ghost_values();
     times_ = {0};
-    masses_ = {molecules_of(space_, numbers_, solutions_.front())};
+    masses_ = molecules_of(space_, numbers_, solutions_);
     numbers_.molecules = masses_.front();
     return present();
 }
@@ -241,6 +241,15 @@ std::vector<NamedNumber> ProductionScheme::constants() const {
     std::vector<NamedNumber> out;
     for (const auto& row : production::constants) out.push_back({std::string(row.name), row.value});
     return out;
+}
+
+std::vector<NamedNumber> ProductionScheme::solver_counts() const {
+    const auto& counts = solver_.counts();
+    const auto row = [](const char* name, auto count) { return NamedNumber{name, static_cast<double>(count)}; };
+    return {row("iterations", counts.iterations), row("factorisations", counts.factorisations),
+            row("factorisations_of_double_precision", counts.of_double_precision),
+            row("single_precision_failed", counts.single_precision_failed),
+            row("unknowns_between_processes", solver_.shared_unknowns())};
 }
 
 void ProductionScheme::write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,

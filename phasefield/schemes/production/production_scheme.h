@@ -32,15 +32,17 @@ class ProductionScheme : public Scheme {
     [[nodiscard]] double unknowns() const override { return static_cast<double>(space_.dofs.n_dofs()); }
     [[nodiscard]] double cells() const override { return static_cast<double>(mesh_->n_global_active_cells()); }
     [[nodiscard]] std::vector<NamedNumber> constants() const override;
+    [[nodiscard]] std::vector<NamedNumber> solver_counts() const override;
     /// So far.
-    [[nodiscard]] unsigned int factorisations() const { return solver_.factorisations(); }
+    [[nodiscard]] unsigned int factorisations() const { return solver_.counts().factorisations; }
 
   private:
     void distribute();
     void renew();
     bool adapt_once(const MembraneCurve& curve);
-    /// That of the membrane at the end of the step; the molecules keep their integral.
+    /// That of the membrane at the end of the step; the molecules keep their integrals.
     void foresee_thickness(double tau);
+    /// Each solution's to its own: with one factor for all, what is left of the others' errors would be a source.
     void restore_molecules();
     /// The polynomial through the newest `count` solutions.
     [[nodiscard]] Vector polynomial(double time, std::size_t count) const;

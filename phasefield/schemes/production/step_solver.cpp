@@ -22,13 +22,16 @@ constexpr double farthest = constant("farthest");
 constexpr int most_factorisations = count("most_factorisations");
 constexpr double fast_contraction = constant("fast_contraction");
 constexpr double largest_rest = constant("largest_rest");
+constexpr double round_off = constant("round_off");
 constexpr double most_divergence = constant("most_divergence");
 constexpr std::size_t vectors_of_guess = 2;  // of an Origin, before the solutions
 
 }  // namespace
 
 StepSolver::StepSolver(const Parameters& parameters, const LayerEnergy& energy, MPI_Comm communicator, double wanted)
-    : energy_(energy), pattern_(parameters, energy), system_(communicator, "coupled"), wanted_(wanted) {}
+    : energy_(energy), pattern_(parameters, energy), system_(communicator, "coupled"), wanted_(wanted) {
+    for (const double size : field_sizes(scales(parameters))) least_.push_back(round_off * size);
+}
 
 void StepSolver::reinit(const Space& space) {
     system_.reinit(space);
@@ -49,6 +52,8 @@ Vector StepSolver::factorise(const Problem& problem, const Vector& solution) {
     for (std::size_t j = 0; j < history.weights.size(); ++j) origin_.vectors.push_back((*history.solutions)[j]);
     assemble(*problem.space, pattern_, energy_, *problem.numbers, history, solution, system_);
     Vector out = problem.space->vector();
+    ++counts_.factorisations;
+    if (system_.precision() == Precision::full) ++counts_.of_double_precision;
     system_.forget_factors();
     system_.solve(*problem.space, out);
     return out;
@@ -66,6 +71,7 @@ StepSolver::Ending StepSolver::iterate(const Problem& problem, Vector& solution,
     double first = 0, last = 0;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
         give_up_if_interrupted(problem.space->dofs.get_communicator());
+        ++counts_.iterations;
         const bool at_factors = iteration == 0 && newton != nullptr;
         const Vector step = at_factors ? *newton : increment(problem, solution);
         const double change = layer_increment(*problem.space, *problem.numbers, step, solution);
@@ -74,7 +80,7 @@ StepSolver::Ending StepSolver::iterate(const Problem& problem, Vector& solution,
         changes_ += text;
         if (iteration == 0) first = std::max(change, wanted_);
         if (!std::isfinite(change) || change > most_divergence * first) return Ending::diverged;
-        if (!mixing) mixing.emplace(*problem.space, step);
+        if (!mixing) mixing.emplace(*problem.space, step, least_);
         mixing->advance(solution, step);
         const double contraction = change / last;
         const bool foreseen = newton != nullptr && iteration > 0 && contraction < fast_contraction;
@@ -94,6 +100,15 @@ bool StepSolver::near_factors(const Problem& problem, const Vector& solution) co
     moved.update_ghost_values();
     return layer_increment(*problem.space, *problem.numbers, moved, solution) <
            farthest * problem.numbers->numerics.epsilon;
+}
+
+StepSolver::Ending StepSolver::iterate_with_old_factors(const Problem& problem, Vector& solution) {
+    if (!system_.has_factors() || !near_factors(problem, solution)) return Ending::slow;
+    try {
+        return iterate(problem, solution, nullptr);
+    } catch (const SolverError&) {
+        return Ending::diverged;
+    }
 }
 
 StepSolver::Ending StepSolver::iterate_with_new_factors(const Problem& problem, Vector& solution) {
@@ -127,16 +142,15 @@ void StepSolver::converge(const Problem& problem, Vector& solution) {
         solution.update_ghost_values();
     };
     changes_.clear();
-    if (system_.has_factors() && near_factors(problem, solution)) {
-        const Ending ending = iterate(problem, solution, nullptr);
-        if (ending == Ending::converged) return;
-        if (ending == Ending::diverged) start_again();
-    }
+    const Ending with_old = iterate_with_old_factors(problem, solution);
+    if (with_old == Ending::converged) return;
+    if (with_old == Ending::diverged) start_again();
     for (int k = 0; k < most_factorisations; ++k) {
         const Ending ending = iterate_with_new_factors(problem, solution);
         if (ending == Ending::converged) return;
         if (system_.precision() == Precision::single) {
             start_again();
+            ++counts_.single_precision_failed;
             system_.use(Precision::full);  // until the mesh changes, if it serves
         } else if (ending == Ending::diverged) {
             break;
@@ -151,6 +165,9 @@ void StepSolver::converge(const Problem& problem, Vector& solution) {
 std::vector<const Vector*> StepSolver::save(Checkpoint& checkpoint) const {
     const bool there = system_.has_factors();
     checkpoint.scalars["factors_full_precision"] = system_.precision() == Precision::full ? 1 : 0;
+    checkpoint.arrays["solver_counts"] = {
+        static_cast<double>(counts_.iterations), static_cast<double>(counts_.factorisations),
+        static_cast<double>(counts_.of_double_precision), static_cast<double>(counts_.single_precision_failed)};
     checkpoint.scalars["factors_rate"] = origin_.rate;
     checkpoint.scalars["factors_profile_relaxation"] = origin_.profile_relaxation;
     checkpoint.scalars["factors_molecules"] = origin_.molecules;
@@ -172,6 +189,10 @@ std::size_t StepSolver::saved_vectors(const Checkpoint& checkpoint) {
 void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint,
                       std::vector<Vector> vectors) {
     if (checkpoint.scalar("factors_full_precision") != 0) system_.use(Precision::full);
+    const auto& counts = checkpoint.array("solver_counts");
+    const auto whole = [&counts](std::size_t i) { return static_cast<unsigned int>(counts.at(i)); };
+    const Counts saved{whole(0), whole(1), whole(2), whole(3)};
+    counts_ = saved;
     if (vectors.empty()) return;
     numbers.rate = checkpoint.scalar("factors_rate");
     numbers.profile_relaxation = checkpoint.scalar("factors_profile_relaxation");
@@ -182,6 +203,7 @@ void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint&
     const StepPast history(space, numbers, solutions, checkpoint.array("factors_weights"),
                            checkpoint.array("factors_ahead"), vectors[1]);
     factorise({&space, &numbers, &history}, vectors[0]);
+    counts_ = saved;  // the factors are made for the second time
 }
 
 }  // namespace endoflow::phasefield::production

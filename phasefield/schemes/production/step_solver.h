@@ -33,7 +33,14 @@ class StepSolver {
     /// Makes the factors again; `numbers` as of any step, `vectors` with ghost values.
     void load(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint, std::vector<Vector> vectors);
 
-    [[nodiscard]] unsigned int factorisations() const { return system_.factorisations(); }
+    /// What has been done so far, in a run that was continued from its start.
+    struct Counts {
+        unsigned int iterations = 0, factorisations = 0, of_double_precision = 0;
+        unsigned int single_precision_failed = 0;  // and gave way to double precision
+    };
+    [[nodiscard]] const Counts& counts() const { return counts_; }
+    /// What the processes solve for together on the present mesh.
+    [[nodiscard]] SubdomainSystem::Index shared_unknowns() const { return system_.shared_unknowns(); }
 
   private:
     enum class Ending { converged, slow, diverged };
@@ -59,6 +66,8 @@ class StepSolver {
     /// New factors at `solution`, and Newton's increment there.
     Vector factorise(const Problem& problem, const Vector& solution);
     [[nodiscard]] Vector increment(const Problem& problem, const Vector& solution);
+    /// Diverged, too, when what they lead to is no number: new ones may serve.
+    Ending iterate_with_old_factors(const Problem& problem, Vector& solution);
     /// Iterations with the present factors; `newton`: the first increment, if they were made at `solution`.
     Ending iterate(const Problem& problem, Vector& solution, const Vector* newton);
     /// Diverged, too, when there are no factors of single precision.
@@ -68,8 +77,10 @@ class StepSolver {
     EquationPattern pattern_;
     CondensedSystem system_;
     Origin origin_;
+    Counts counts_;
     double wanted_;
-    std::string changes_;  // of ψ, for the error message
+    std::vector<double> least_;  // first increments that count, field by field
+    std::string changes_;        // of ψ, for the error message
 };
 
 }  // namespace endoflow::phasefield::production

@@ -1,0 +1,47 @@
+// What the mesh's changes leave as it was.
+
+#include <catch2/catch.hpp>
+#include <set>
+#include <vector>
+
+#include "one_step.h"
+#include "phasefield/schemes/production/production_scheme.h"
+#include "small_case.h"
+
+using namespace endoflow;
+using namespace endoflow::phasefield;
+using namespace endoflow::phasefield::production;
+
+TEST_CASE("molecules are conserved when the mesh and the layer's thickness change", "[production]") {
+    // Each solution of the past keeps its own integral: with one factor for all, what the others' integrals were off by
+    // was a source.
+    Parameters p = small_case();
+    p.molecules.patch_radius = 10;  // bends more strongly
+    p.phase_field.production.thinning = 0.5;
+    ProductionScheme scheme(p, MPI_COMM_SELF);
+    scheme.start();
+    const double mass = scheme.integrate().molecules;
+    double time = 0;
+    std::vector<double> cells{scheme.cells()};
+    for (int count = 0; count < 14; ++count) {
+        const double tau = scheme.step(time, 1);
+        const auto outcome = scheme.attempt(time, tau);
+        REQUIRE(outcome.rejection.empty());
+        scheme.keep(time, tau, outcome);
+        scheme.follow(outcome.contour.curve);
+        time += tau;
+        cells.push_back(scheme.cells());
+    }
+    CHECK(std::set<double>(cells.begin(), cells.end()).size() > 2);
+    CHECK(scheme.integrate().molecules == Approx(mass).epsilon(1e-7));
+}
+
+TEST_CASE("the rim is held alike whatever the mesh", "[production]") {
+    std::set<dealii::types::global_dof_index> held;
+    for (const double band_width : {4.5, 8.0}) {
+        Parameters p = small_case();
+        p.phase_field.band_width = band_width;
+        held.insert(OneStep(p, 1e-9).space.constraints.n_constraints());
+    }
+    CHECK(held.size() == 1);
+}
