@@ -2,7 +2,6 @@
 
 #include <catch2/catch.hpp>
 #include <set>
-#include <vector>
 
 #include "one_step.h"
 #include "phasefield/schemes/production/production_scheme.h"
@@ -22,17 +21,16 @@ TEST_CASE("molecules are conserved when the mesh and the layer's thickness chang
     scheme.start();
     const double mass = scheme.integrate().molecules;
     double time = 0;
-    std::vector<double> cells{scheme.cells()};
-    for (int count = 0; count < 14; ++count) {
+    const double cells = scheme.cells();
+    while (scheme.cells() == cells) {
+        REQUIRE(time < 0.02);
         const double tau = scheme.step(time, 1);
         const auto outcome = scheme.attempt(time, tau);
         REQUIRE(outcome.rejection.empty());
         scheme.keep(time, tau, outcome);
         scheme.follow(outcome.contour.curve);
         time += tau;
-        cells.push_back(scheme.cells());
     }
-    CHECK(std::set<double>(cells.begin(), cells.end()).size() > 2);
     CHECK(scheme.integrate().molecules == Approx(mass).epsilon(1e-7));
 }
 

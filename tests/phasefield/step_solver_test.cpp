@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "phasefield/fem/mesh.h"
 #include "phasefield/schemes/production/production_scheme.h"
@@ -77,7 +78,8 @@ TEST_CASE("a membrane at rest takes one factorisation and stays at rest", "[newt
     CHECK(scheme.factorisations() == 1);
     const auto outcome = scheme.attempt(time, 2e-5);
     CHECK(outcome.contour.curve.z.front() == Approx(p.domain.membrane_height).epsilon(1e-12));
-    CHECK(outcome.diagnostics.bending_energy == Approx(0).margin(1e-12));
+    // Newton's method ends where the curvature is 1e-6/R: β/2 (1e-6/R)² on the area πR².
+    CHECK(outcome.diagnostics.bending_energy < 1e-12 * std::numbers::pi / 2 * p.membrane.bending_stiffness);
 }
 
 TEST_CASE("a step with the factors of another one ends where its own factors lead", "[newton]") {
