@@ -31,6 +31,7 @@ inline constexpr Constant constants[] = {
     {"far_part", 1e-7, "M", "with which ψ becomes the distance far from the layer"},
     {"least_normal_diffusivity", 3.15e-4, "V R (R/ε)³", "of c along the normal: 6.4e4 nm²/µs at ε = 1.2 nm"},
     {"molecule_leak", 1.17e-4, "V", "defines c far from the layer"},
+    {"crowding_length", 0.2, "h", "D_s over the speed at which molecules crowd the membrane within a cell"},
     {"uneven_fade", 20, "1/ε", "∂ₙ∇ψ beyond which the force that balances G's diffusion fades"},
     // The weight δ_m (membrane_weight.cpp)
     {"equal_square", -19.568237, "", "of φ² in δ_m for equal viscosities, from where others are found"},
@@ -74,7 +75,7 @@ inline constexpr Constant constants[] = {
     {"most_factorisations", 4, "", "in one step"},
     {"fast_contraction", 0.5, "", "of the changes by new factors: below it the next change can be foreseen"},
     {"largest_rest", 0.01, "", "of the first increment, in all fields: b follows ψ's second derivatives"},
-    {"round_off", 1e-6, "a field's size", "first increments below it count as that large: at rest they are noise"},
+    {"round_off", 1e-8, "a field's size", "first increments below it count as that large: at rest they are noise"},
     {"most_divergence", 10, "", "of a change beyond the first one, where Newton's method gives up"},
     // The mesh (refinement.cpp, mesh_following.cpp)
     {"cell_per_epsilon", 4.0 / 3, "ε",

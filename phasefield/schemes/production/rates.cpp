@@ -4,9 +4,25 @@
 #include <cmath>
 
 #include "phasefield/schemes/production/constants.h"
+#include "shared/model/membrane_energy.h"
 #include "shared/model/time_scale.h"
 
 namespace endoflow::phasefield::production {
+
+namespace {
+
+double largest_crowding(const Parameters& p) {
+    constexpr int points = 100;
+    const MembraneEnergy energy = bending_energy(p);
+    double largest = 0;
+    for (int i = 1; i <= points; ++i) {
+        const double c = static_cast<double>(i) / points;
+        largest = std::max(largest, std::abs(c * energy.density(0, c, 0).partial[local::concentration]));
+    }
+    return largest / (p.fluid.viscosity_extracellular + p.fluid.viscosity_intracellular);
+}
+
+}  // namespace
 
 SchemeRates scheme_rates(const Parameters& p) {
     const ProductionSchemeParameters& factors = p.phase_field.production;
@@ -15,6 +31,7 @@ SchemeRates scheme_rates(const Parameters& p) {
     SchemeRates rates;
     rates.profile_relaxation = factors.profile_relaxation * speed;
     rates.strain_relaxation = factors.strain_relaxation * speed / radius;
+    rates.crowding = largest_crowding(p);
     rates.stretching_alignment = factors.stretching_alignment * speed * radius;
     rates.least_normal_diffusivity = constant("least_normal_diffusivity") * speed * std::pow(radius, 4);
     rates.molecule_leak = constant("molecule_leak") * speed;

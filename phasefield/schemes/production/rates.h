@@ -10,6 +10,7 @@ namespace endoflow::phasefield::production {
 struct SchemeRates {
     double profile_relaxation = 0;        // M at most [nm/µs]
     double strain_relaxation = 0;         // ζ [1/µs]
+    double crowding = 0;                  // max |c ∂e/∂c| of the flat membrane over ν₁ + ν₂ [nm/µs]
     double stretching_alignment = 0;      // of s [nm²/µs]
     double least_normal_diffusivity = 0;  // of c, times ε³ [nm⁵/µs]
     double molecule_leak = 0;             // of c [nm/µs]

@@ -6,6 +6,8 @@
 
 namespace endoflow::phasefield::production {
 
+inline constexpr double crowding_length = constant("crowding_length");
+
 /// ∂(δ_m y)/∂t + ∇·(δ_m y v), v the fluid's velocity along the membrane and the level sets' own velocity across it. The
 /// two differ where the profile is being restored; with the fluid's velocity alone y would grow in the layer's tails.
 /// Across, δ_m v is −(∂H/∂t) n/g with H = ∫ δ_m dψ, for with BDF's ∂H/∂t a plane membrane keeps a constant y however
@@ -39,10 +41,12 @@ void add_surface_diffusion(const AtPoint<Number>& y, const Number& diffusivity, 
     row.z += flux * p.normal_r;
 }
 
-/// What the tension leaves of P:∇u within a cell diffuses away in s, as fast as ζ relaxes s over a cell [nm²/µs].
+/// What the tension leaves of P:∇u within a cell diffuses away in s, as fast as ζ relaxes s over a cell, and as fast as
+/// crowded molecules would crowd the membrane further [nm²/µs].
 inline double stretch_diffusivity(const StepNumbers& step) {
     const double h = step.numerics.cell_size;
-    return step.numerics.stretching_diffusivity + step.rates.strain_relaxation * h * h;
+    return step.numerics.stretching_diffusivity +
+           std::max(step.rates.strain_relaxation * h * h, crowding_length * h * step.rates.crowding);
 }
 
 /// The molecules ride on the membrane that the diffusion of s, D_s ∇_Γ s, moves along itself. Where P:∇u crowds the
