@@ -137,8 +137,7 @@ void check_variation(const LayerEnergy& energy) {
         const double along = (c.z * sheet.r - c.r * sheet.z) / std::hypot(sheet.r, sheet.z, gradient_floor);
         const double conjugate = energy.density.conjugate(-b.value, c.value, along * along).value;
         const double squared = psi.r * psi.r + psi.z * psi.z;
-        return -weight.elastic * conjugate - weight.value * (psi.r * b.r + psi.z * b.z) -
-               0.5 * weight.first * (1 + squared) * b.value -
+        return weight.value * (-conjugate - psi.r * b.r - psi.z * b.z) - 0.5 * weight.first * (1 + squared) * b.value -
                weight.thickness * b.value * (thickness.r * psi.r + thickness.z * psi.z) -
                0.5 * energy.compliance(epsilon) * weight.value * std::pow(psi.r * b.r + psi.z * b.z, 2) -
                0.5 * energy.smoothing(epsilon) * (b.r * b.r + b.z * b.z);
@@ -213,8 +212,8 @@ TEST_CASE("where the layer's thickness changes the fluid feels the energy's deri
         const auto weight = energy_weight(layer_profile(psi.value, epsilon), psi.value, epsilon);
         const double conjugate = energy.density.conjugate(-b.value, x[molecule_density].value, 0).value;
         const double slope = psi.r * b.r + psi.z * b.z, defect = 1 - psi.r * psi.r - psi.z * psi.z;
-        return weight.value * b.value * change.laplacian - weight.elastic * conjugate -
-               0.5 * weight.first * b.value * defect - 0.5 * energy.compliance(epsilon) * weight.value * slope * slope;
+        return weight.value * (b.value * change.laplacian - conjugate) - 0.5 * weight.first * b.value * defect -
+               0.5 * energy.compliance(epsilon) * weight.value * slope * slope;
     };
     Fields<double> rows;
     const auto force =

@@ -168,25 +168,6 @@ TEST_CASE("the membrane's weight leaves no excess shear in the layer", "[product
     }
 }
 
-TEST_CASE("the weight of the energy per area has no second moment", "[production]") {
-    // ∫ψ w_e' dψ = −1 and ∫ψ³ w_e' dψ = −3 ∫ψ² w_e dψ = 0, too, of the derivative that the equations use. The
-    // trapezoidal rule is exact to round-off: the weight falls as exp(−4√2 ψ/ε).
-    constexpr double epsilon = 1.2, h = 0.01;
-    double sum = 0, second = 0, first_of_slope = 0, third_of_slope = 0;
-    for (int i = -2000; i <= 2000; ++i) {
-        const double psi = i * h;
-        const auto weight = energy_weight(layer_profile(psi, epsilon), psi, epsilon);
-        sum += h * weight.elastic;
-        second += h * psi * psi * weight.elastic;
-        first_of_slope += h * psi * weight.elastic_first;
-        third_of_slope += h * psi * psi * psi * weight.elastic_first;
-    }
-    CHECK(sum == Approx(1).epsilon(1e-10));
-    CHECK(second == Approx(0).margin(1e-10));
-    CHECK(first_of_slope == Approx(-1).epsilon(1e-10));
-    CHECK(third_of_slope == Approx(0).margin(1e-9));
-}
-
 TEST_CASE("a small bud conserves its molecules, loses energy and keeps profile and area", "[production]") {
     Parameters p = small_case();
     p.phase_field.scheme = PhaseFieldScheme::production;

@@ -14,7 +14,7 @@ struct BendingForces {
 
 /// The membrane's energy as a functional of ψ, the moment b and c whose stationary value over b is E:
 ///
-///   E = ∫ w b h − w_e e*(−b, c) − ½ D w (∇ψ·∇b)² dx,   h = Δψ − w' (1 − |∇ψ|²)/(2w),   w the weight above,
+///   E = ∫ w (b h − e*(−b, c)) − ½ D w (∇ψ·∇b)² dx,   h = Δψ − w' (1 − |∇ψ|²)/(2w),   w the weight above,
 ///
 /// e* the Legendre transform of the energy per area, for bending alone b²/(2 β) − b C, and −h the layer's curvature;
 /// the Laplacian of ψ integrated by parts, with what w depends on x by ε taken off: b ∂w/∂ε ∇ε·∇ψ. With w = δ this h is
@@ -42,14 +42,14 @@ BendingForces<Number> add_bending(const Fields<Number>& x, const PointGeometry<N
     const EnergyWeight<Number> w = energy_weight(p.layer, psi.value, p.epsilon);
     const Number mean = 0.5 * (1.0 + p.squared_gradient);
     const double smoothing = energy.smoothing(p.epsilon);
-    row[moment] = {w.first * mean - w.elastic * elastic.curvature, w.value * psi.r + smoothing * b.r,
+    row[moment] = {w.first * mean - w.value * elastic.curvature, w.value * psi.r + smoothing * b.r,
                    w.value * psi.z + smoothing * b.z};
     const auto& thickness = past.thickness;
     const Number thinning = thickness.r * psi.r + thickness.z * psi.z, twist = w.first * b.value;
     row[moment].value += w.thickness * thinning;
     row[normal_force] = {(p.density + surface_floor / p.epsilon) * x[normal_force].value +
-                             w.first * (psi.r * b.r + psi.z * b.z) + w.elastic_first * conjugate +
-                             w.second * mean * b.value + w.thickness_1 * b.value * thinning,
+                             w.first * (psi.r * b.r + psi.z * b.z + conjugate) + w.second * mean * b.value +
+                             w.thickness_1 * b.value * thinning,
                          w.value * b.r + twist * psi.r + (thickness.r * w.thickness) * b.value,
                          w.value * b.z + twist * psi.z + (thickness.z * w.thickness) * b.value};
     add_alignment(x[normal_force], past.normal, force_diffusivity(p), row[normal_force]);
@@ -60,20 +60,19 @@ BendingForces<Number> add_bending(const Fields<Number>& x, const PointGeometry<N
     row[normal_force].value += (0.5 * compliance) * w.first * slope * slope;
     row[normal_force].r += flux * b.r;
     row[normal_force].z += flux * b.z;
-    const Number by_thickness = w.thickness * change.laplacian * b.value - w.elastic_thickness * conjugate -
+    const Number by_thickness = w.thickness * (change.laplacian * b.value - conjugate) -
                                 w.thickness_1 * b.value * (1.0 - mean) -
                                 compliance * (0.5 * w.thickness + (1 / p.epsilon) * w.value) * slope * slope;
     if (!energy.coupled) return {w.kept * elastic.by_concentration, by_thickness, elastic};
 
-    const Number line = 2.0 * w.elastic * elastic.by_squared_gradient * along, turning = line * p.inverse_gradient;
+    const Number line = 2.0 * w.value * elastic.by_squared_gradient * along, turning = line * p.inverse_gradient;
     const Number by_r = turning * (c.z - along * p.normal_r), by_z = -1.0 * turning * (c.r + along * p.normal_z);
     row[normal_force].r = row[normal_force].r - by_r;
     row[normal_force].z = row[normal_force].z - by_z;
     row[normal_force].value += (thickness.r / p.epsilon) * by_r + (thickness.z / p.epsilon) * by_z;
     const Number& mu = x[molecule_potential].value;
-    row[molecule_potential] = {(w.value + surface_floor / p.epsilon) * mu - w.elastic * elastic.by_concentration,
+    row[molecule_potential] = {(w.value + surface_floor / p.epsilon) * mu - w.value * elastic.by_concentration,
                                line * p.normal_z, -1.0 * line * p.normal_r};
-    add_alignment(x[molecule_potential], past.normal, force_diffusivity(p), row[molecule_potential]);
     return {w.kept * mu, by_thickness, elastic};
 }
 

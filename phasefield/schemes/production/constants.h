@@ -31,7 +31,7 @@ inline constexpr Constant constants[] = {
     {"far_part", 1e-7, "M", "with which ψ becomes the distance far from the layer"},
     {"least_normal_diffusivity", 3.15e-4, "V R (R/ε)³", "of c along the normal: 6.4e4 nm²/µs at ε = 1.2 nm"},
     {"molecule_leak", 1.17e-4, "V", "defines c far from the layer"},
-    {"crowding_length", 0.2, "h", "D_s over the speed at which molecules crowd the membrane within a cell"},
+    {"crowding_length", 0.1, "h", "D_s over the speed at which molecules crowd the membrane within a cell"},
     {"uneven_fade", 20, "1/ε", "∂ₙ∇ψ beyond which the force that balances G's diffusion fades"},
     // The weight δ_m (membrane_weight.cpp)
     {"equal_square", -19.568237, "", "of φ² in δ_m for equal viscosities, from where others are found"},

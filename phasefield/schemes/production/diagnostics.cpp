@@ -55,8 +55,8 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
             integrals.molecules += w * density * c.value[q];
             integrals.stretching += w * density * s.value[q];
             const auto weight = energy_weight(layer, psi.value[q], epsilon);
-            diagnostics.bending_energy +=
-                w * energy_per_volume({b.value[q], b.r[q], b.z[q]}, distance_here, elastic, weight, epsilon, energy);
+            diagnostics.bending_energy += w * energy_per_volume({b.value[q], b.r[q], b.z[q]}, distance_here, elastic,
+                                                                weight.value, epsilon, energy);
             diagnostics.viscous_dissipation +=
                 w * nu * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
             if (step.fluid.dynamics == Dynamics::geometric)
@@ -67,7 +67,7 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
             const double potential = energy.coupled ? mu.value[q] : elastic.by_concentration;
             if (energy.coupled) {
                 const double line =
-                    w * weight.elastic * energy.edge.density(elastic.curvature, c.value[q], slope * slope).value;
+                    w * weight.value * energy.edge.density(elastic.curvature, c.value[q], slope * slope).value;
                 diagnostics.line_energy += line;
                 diagnostics.bending_energy -= line;
                 const double driven = (mu.z[q] * sheet.r - mu.r[q] * sheet.z) / length;

@@ -63,10 +63,10 @@ Number bending_by_concentration(const LayerEnergy& energy, const ElasticState<Nu
 
 /// The energy (D) per volume where it is stationary over b [pN/nm²].
 inline double energy_per_volume(const AtPoint<double>& b, const AtPoint<double>& psi,
-                                const ElasticState<double>& elastic, const EnergyWeight<double>& weight, double epsilon,
+                                const ElasticState<double>& elastic, double weight, double epsilon,
                                 const LayerEnergy& energy) {
     const double slope = psi.r * b.r + psi.z * b.z;
-    return weight.elastic * elastic.density + 0.5 * weight.value * energy.compliance(epsilon) * slope * slope +
+    return weight * (elastic.density + 0.5 * energy.compliance(epsilon) * slope * slope) +
            0.5 * energy.smoothing(epsilon) * (b.r * b.r + b.z * b.z);
 }
 

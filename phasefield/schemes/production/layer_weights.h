@@ -14,7 +14,6 @@ namespace endoflow::phasefield::production {
 
 inline constexpr double weight_cut = constant("weight_cut");
 inline const double energy_norm = cut_norm({});  // 1/∫ δ²/(δ + f) dψ
-inline const MomentFree elastic_factor = moment_free();
 
 /// φ, δ, δ' and the rest that only depend on ψ.
 template <class Number>
@@ -60,14 +59,12 @@ inline double cut_indicator(double phi, const MembraneWeight& w) {
 }
 
 /// The weight of the bending energy: δ with its tails cut off, δ²/(δ + f), so that the defects of ψ where normals cross
-/// exert no force, made to integrate to one again, w, and its two derivatives with respect to ψ. And w_e = (a + bφ²) w,
-/// which has no second moment, for the energy per area.
+/// exert no force, made to integrate to one again. And its two derivatives with respect to ψ.
 template <class Number>
 struct EnergyWeight {
     Number value, first, second;
     Number kept;                    // δ/(δ + f)
     Number thickness, thickness_1;  // ∂/∂ε of the weight and of its derivative: it is a function of ψ/ε over ε
-    Number elastic, elastic_first, elastic_thickness;  // w_e, dw_e/dψ, ∂w_e/∂ε
 };
 
 template <class Number>
@@ -79,11 +76,7 @@ EnergyWeight<Number> energy_weight(const LayerProfile<Number>& layer, const Numb
     const Number inverse = 1.0 / (d + f), part = d * inverse, rest = f * inverse;
     const Number g1 = part * (part + 2.0 * rest), g2 = 2.0 * rest * rest * inverse;
     const Number w = energy_norm * d * part, w1 = energy_norm * g1 * d1, w2 = energy_norm * (g2 * d1 * d1 + g1 * d2);
-    const Number factor = elastic_factor.constant + elastic_factor.square * (layer.phi * layer.phi);
-    const Number e = factor * w, e1 = factor * w1 + (2 * elastic_factor.square) * layer.phi * layer.phi_slope * w;
-    const double thinner = -1 / epsilon;
-    return {
-        w, w1, w2, part, thinner * (w + psi * w1), thinner * (2.0 * w1 + psi * w2), e, e1, thinner * (e + psi * e1)};
+    return {w, w1, w2, part, (-1 / epsilon) * (w + psi * w1), (-1 / epsilon) * (2.0 * w1 + psi * w2)};
 }
 
 }  // namespace endoflow::phasefield::production

@@ -115,33 +115,14 @@ MembraneWeight quadratic_weight(const FluidParameters& fluid, ViscosityMean mean
     return weight_of(zero_of(excess, lowest, 0.0), 0);
 }
 
-/// ∫ δ f δ/(δ + f_cut) dψ over one side of the membrane, δ dψ = ¾ (1 − φ²) dφ.
-template <class Function>
-double kept_integral(const Function& f) {
-    const auto integrand = [&](double phi) {
-        const double well = 1 - phi * phi, kept = well * well / (well * well + tail_cut);
-        return 0.75 * well * kept * f(phi);
-    };
-    return boost::math::quadrature::tanh_sinh<double>().integrate(integrand, 0.0, nearly_one);
-}
-
 }  // namespace
 
 double cut_norm(const MembraneWeight& weight) {
-    return 0.5 / kept_integral([&](double phi) {
-               const double phi2 = phi * phi;
-               return weight.constant + phi2 * (weight.square + phi2 * weight.fourth);
-           });
-}
-
-MomentFree moment_free() {
-    const auto square = [](double phi) { return phi * phi; };
-    const auto distance = [](double phi) { return std::pow(std::atanh(phi), 2); };  // ψ² [2 ε²]
-    const double all = kept_integral([](double) { return 1.0; });
-    const double outside = kept_integral(square) / all, moment = kept_integral(distance) / all,
-                 outside_moment = kept_integral([&](double phi) { return square(phi) * distance(phi); }) / all;
-    const double b = moment / (outside * moment - outside_moment);
-    return {1 - b * outside, b};
+    const auto integrand = [&](double phi) {  // dH_m/dφ times the part that is kept
+        const double phi2 = phi * phi, well = 1 - phi2, kept = well * well / (well * well + tail_cut);
+        return 0.75 * well * (weight.constant + phi2 * (weight.square + phi2 * weight.fourth)) * kept;
+    };
+    return 0.5 / boost::math::quadrature::tanh_sinh<double>().integrate(integrand, 0.0, 1.0);
 }
 
 ExcessShear excess_shear(const MembraneWeight& weight, const FluidParameters& fluid, ViscosityMean mean) {

@@ -15,12 +15,6 @@ struct MembraneWeight {
 /// forces there make Newton's method fail.
 inline constexpr double tail_cut = constant("tail_cut");
 
-/// a + b φ² with which δ²/(δ + f), made to integrate to one, has no second moment, and integrates to one again.
-struct MomentFree {
-    double constant, square;
-};
-MomentFree moment_free();
-
 /// 1/∫ δ_m δ/(δ + f) dψ, so that the integral over the layer stays one.
 double cut_norm(const MembraneWeight& weight);
 
