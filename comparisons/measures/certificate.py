@@ -57,20 +57,15 @@ def certificate(run, parts):
     quantity that not all of the runs have gets no interval.
     """
     time = common_time([each for coarse, refined, _ in parts.values() for each in (coarse, refined)])
+    pairs = {part: (values(coarse, time), values(refined, time), scale) for part, (coarse, refined, scale) in parts.items()}
     entries = {}
     for name, value in values(run, time).items():
-        differences = {part: _difference(*pair, name, time) for part, (*pair, _) in parts.items()}
-        if value is None or None in differences.values():
+        if value is None or any(None in (coarse[name], refined[name]) for coarse, refined, _ in pairs.values()):
             continue
-        errors = {part: SAFETY * parts[part][2] * difference for part, difference in differences.items()}
+        errors = {part: SAFETY * scale * abs(refined[name] - coarse[name]) for part, (coarse, refined, scale) in pairs.items()}
         unit, title = QUANTITIES[name]
         entries[name] = {"title": title, "value": value, "error": sum(errors.values()), "unit": unit, "parts": errors}
     return {"time_us": time, "safety": SAFETY, "values": entries}
-
-
-def _difference(run, refined, name, time):
-    found = [values(each, time)[name] for each in (run, refined)]
-    return None if None in found else abs(found[1] - found[0])
 
 
 def in_words(entry):

@@ -144,7 +144,8 @@ void TimeLoop::note_solver() const {
 }
 
 double TimeLoop::neck_radius_at(double time) const {
-    const Contour& contour = time >= time_ ? contour_ : scheme_->contour_at(time);
+    if (time >= time_) return contour_.components > 1 ? 0 : neck_radius(observables_.neck);
+    const Contour contour = scheme_->contour_at(time);
     return contour.components > 1 ? 0 : neck_radius(measure(contour.curve, model_).neck);
 }
 

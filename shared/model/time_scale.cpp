@@ -19,10 +19,13 @@ double size_of_membrane(const DomainParameters& d) {
     return std::max(d.spheroid_polar_axis, d.spheroid_equatorial_axis);
 }
 
+double largest_stiffness(const MembraneParameters& membrane) {
+    const BendingModel model(membrane);
+    return std::max(model.stiffness(0).value, model.stiffness(1).value);
+}
+
 double natural_time(const Parameters& p) {
-    const BendingModel model(p.membrane);
-    const double stiffness = std::max(model.stiffness(0).value, model.stiffness(1).value),
-                 R = size_of_membrane(p.domain);
+    const double stiffness = largest_stiffness(p.membrane), R = size_of_membrane(p.domain);
     if (p.fluid.dynamics == Dynamics::geometric)
         return std::pow(R * p.molecules.interface_width, 2) / (p.fluid.normal_mobility * stiffness);
     return (p.fluid.viscosity_extracellular + p.fluid.viscosity_intracellular) * std::pow(R, 3) / stiffness;

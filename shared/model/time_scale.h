@@ -7,9 +7,12 @@ namespace endoflow {
 /// What the membrane's size is measured by [nm]: domain.radius, of a vesicle the longer semi-axis.
 [[nodiscard]] double size_of_membrane(const DomainParameters& domain);
 
+/// β [pN nm], the larger one of the bare and the coated membrane's.
+[[nodiscard]] double largest_stiffness(const MembraneParameters& membrane);
+
 /// The time [µs] in which a membrane that is bent over its size R relaxes: (ν₁ + ν₂) R³/β with fluids, R²
-/// ε_c²/(M β) without (the coat's edge, ε_c wide, then decides), β being the larger one of the bare and the coated
-/// membrane's and M fluid.normal_mobility. 9.4 µs in the standard case.
+/// ε_c²/(M β) without (the coat's edge, ε_c wide, then decides), β being largest_stiffness and M
+/// fluid.normal_mobility. 9.4 µs in the standard case.
 [[nodiscard]] double natural_time(const Parameters& parameters);
 
 /// The time [µs] in which molecules that come and go change the coat: 1/(k_on + k_off), or R/v at its edge. 0 without.

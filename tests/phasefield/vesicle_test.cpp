@@ -5,6 +5,7 @@
 
 #include "phasefield/driver/clearance.h"
 #include "phasefield/schemes/production/production_scheme.h"
+#include "run_steps.h"
 #include "shared/geometry/observables.h"
 #include "shared/support/error.h"
 
@@ -61,12 +62,7 @@ TEST_CASE("a vesicle keeps its area, its volume and its place", "[production]") 
     CHECK(first.extracellular_volume == Approx(spheroid.volume()).epsilon(1e-6));
     double time = 0;
     while (time < end * (1 - 1e-12)) {
-        const double tau = scheme.step(time, end);
-        last = scheme.attempt(time, tau);
-        REQUIRE(last.rejection.empty());
-        scheme.keep(time, tau, last);
-        scheme.follow(last.contour.curve);
-        time += tau;
+        last = take_step(scheme, time, end);
     }
     const MembraneCurve& curve = last.contour.curve;
     CHECK(last.contour.components == 1);

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "phasefield/schemes/production/constants.h"
-#include "shared/model/bending_model.h"
 #include "shared/model/time_scale.h"
 
 namespace endoflow::phasefield::production {
@@ -118,10 +117,8 @@ std::vector<unsigned int> field_degrees(const PhaseFieldParameters& p) {
 }
 
 Scales scales(const Parameters& p) {
-    const BendingModel model(p.membrane);
     const double length = size_of_membrane(p.domain);
-    return {length, p.phase_field.epsilon, length / natural_time(p),
-            std::max(model.stiffness(0).value, model.stiffness(1).value)};
+    return {length, p.phase_field.epsilon, length / natural_time(p), largest_stiffness(p.membrane)};
 }
 
 std::array<double, n_fields> field_sizes(const Scales& by) {

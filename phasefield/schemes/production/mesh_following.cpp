@@ -93,7 +93,7 @@ StepOutcome ProductionScheme::load(const std::filesystem::path& directory, const
     for (auto& vector : of_factors) targets.push_back(&vector);
     transfer.deserialize(targets);
     for (const Vector* vector : targets) vector->update_ghost_values();
-    solver_.load(space_, numbers_, checkpoint, std::move(of_factors));
+    solver_.load(space_, numbers_, checkpoint, of_factors);
     return present();
 }
 

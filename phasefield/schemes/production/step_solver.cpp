@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "phasefield/fem/interruption.h"
 #include "phasefield/schemes/production/constants.h"
@@ -187,13 +188,16 @@ std::size_t StepSolver::saved_vectors(const Checkpoint& checkpoint) {
 }
 
 void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint,
-                      std::vector<Vector> vectors) {
+                      const std::vector<Vector>& vectors) {
     if (checkpoint.scalar("factors_full_precision") != 0) system_.use(Precision::full);
     const auto& counts = checkpoint.array("solver_counts");
     const auto whole = [&counts](std::size_t i) { return static_cast<unsigned int>(counts.at(i)); };
-    const Counts saved{whole(0), whole(1), whole(2), whole(3)};
-    counts_ = saved;
-    if (vectors.empty()) return;
+    if (!vectors.empty()) factorise_again(space, std::move(numbers), checkpoint, vectors);
+    counts_ = {whole(0), whole(1), whole(2), whole(3)};  // without factors that are made for the second time
+}
+
+void StepSolver::factorise_again(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint,
+                                 const std::vector<Vector>& vectors) {
     numbers.rate = checkpoint.scalar("factors_rate");
     numbers.profile_relaxation = checkpoint.scalar("factors_profile_relaxation");
     numbers.thickness = thickness_on(space.dofs.get_triangulation(), load_thickness(checkpoint, "factors_thickness"));
@@ -203,7 +207,6 @@ void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint&
     const StepPast history(space, numbers, solutions, checkpoint.array("factors_weights"),
                            checkpoint.array("factors_ahead"), vectors[1]);
     factorise({&space, &numbers, &history}, vectors[0]);
-    counts_ = saved;  // the factors are made for the second time
 }
 
 }  // namespace endoflow::phasefield::production

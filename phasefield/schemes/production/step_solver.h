@@ -31,7 +31,8 @@ class StepSolver {
     /// How many vectors were saved.
     [[nodiscard]] static std::size_t saved_vectors(const Checkpoint& checkpoint);
     /// Makes the factors again; `numbers` as of any step, `vectors` with ghost values.
-    void load(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint, std::vector<Vector> vectors);
+    void load(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint,
+              const std::vector<Vector>& vectors);
 
     /// What has been done so far, in a run that was continued from its start.
     struct Counts {
@@ -63,6 +64,9 @@ class StepSolver {
 
     void converge(const Problem& problem, Vector& solution);
     [[nodiscard]] bool near_factors(const Problem& problem, const Vector& solution) const;
+    /// Those of a checkpoint.
+    void factorise_again(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint,
+                         const std::vector<Vector>& vectors);
     /// New factors at `solution`, and Newton's increment there.
     Vector factorise(const Problem& problem, const Vector& solution);
     [[nodiscard]] Vector increment(const Problem& problem, const Vector& solution);
