@@ -1,5 +1,6 @@
 """What a run's numbers rest on, in words: convention, resolution, and whether its balances held."""
 
+from comparisons.measures.powers import with_powers
 from endoflow.alarms import alarms_of
 
 #: Most different entries that are named one by one where many runs are described together.
@@ -63,7 +64,7 @@ def _sharp_resolution(record):
     reached = record.get("accuracy", {}).get("resolution")
     if reached:
         asked = parameters["boundary_integral"]["accuracy"]
-        text += f"; relative accuracy {asked:g} asked for, {reached['largest']:.1e} reached"
+        text += f"; relative accuracy {asked:g} asked for, {with_powers(format(reached['largest'], '.1e'))} reached"
     return text
 
 

@@ -1,7 +1,7 @@
 """report.html of `endoflow infer`."""
 
 from comparisons.page import report
-from comparisons.page.report import escaped, figures, quantity
+from comparisons.page.numbers import escaped, figures, quantity
 from comparisons.page.study_report import common_basis_section, page, parameters_table
 
 REGION_NOTE = (

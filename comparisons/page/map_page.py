@@ -1,7 +1,7 @@
 """report.html of a map of outcomes."""
 
 from comparisons.page import report
-from comparisons.page.report import escaped, setting
+from comparisons.page.numbers import escaped, setting
 from comparisons.page.study_report import common_basis_section, heading, page
 
 NOTE = (

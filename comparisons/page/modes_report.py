@@ -6,7 +6,7 @@ import numpy as np
 
 from comparisons.drawing.mode_plots import INITIAL_AMPLITUDE, INITIAL_TITLES
 from comparisons.page import report
-from comparisons.page.report import escaped, figures, quantity
+from comparisons.page.numbers import escaped, figures, quantity
 from comparisons.page.study_report import common_basis_section
 from endoflow.curves import resample
 

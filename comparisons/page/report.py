@@ -1,17 +1,20 @@
 """report.html: one file without links to anything outside, made from the sources in assets/."""
 
 import base64
-import html
 import json
 from pathlib import Path
 
 from comparisons.drawing import style
 from comparisons.measures.basis import basis
 from comparisons.measures.metrics import ENGINE_SECTIONS, QUANTITIES, flat_parameters
+from comparisons.page.numbers import code, escaped, figures, flattened, percent, quantity, setting
 from comparisons.page.report_data import report_data
 
 SOURCES = Path(__file__).resolve().parent / "assets"
 SCRIPTS = ("theme.js", "data.js", "colours.js", "membrane_view.js", "charts.js", "readout.js", "player.js", "main.js")
+
+#: Entries of run.json that are no part of the provenance: told elsewhere on the page, or the same for every run (docs/outputs.md).
+TOLD = ("parameters", "alarms", "columns")
 
 #: Titles of the compared quantities.
 TITLES = {name: f"{plot.title} ({plot.unit})" for name, plot in style.HISTORY_PLOTS.items()}
@@ -34,6 +37,7 @@ TIME_COLUMNS = (
 def report_html(a, b, metrics, plots, directory):
     """The report's text for two endoflow.Run objects, their metrics, and the plots {name: title} in directory (Path)."""
     labels = [metrics["runs"][key]["label"] for key in "ab"]
+    parameters = parameter_rows(a, b)
     data = json.dumps(report_data(a, b, metrics), allow_nan=False, separators=(",", ":"))
     sections = filled(
         source("comparison.html"),
@@ -50,7 +54,8 @@ def report_html(a, b, metrics, plots, directory):
         times_table=times_table(metrics["times"]),
         plots="\n".join(plot(directory / f"{name}.svg", title) for name, title in plots.items()),
         basis_table=basis_table(a, b, labels),
-        parameters_table=parameters_table(a, b, labels),
+        parameters_table=table(["", *map(escaped, labels)], parameters, "text"),
+        parameters_open=" open" if any(kind == "differs" for kind, _ in parameters) else "",
         provenance_table=provenance_table(a, b, labels),
     )
     embedded = data.replace("</", "<\\/")
@@ -107,37 +112,6 @@ def filled(template, **values):
     return "".join(pieces)
 
 
-def escaped(text):
-    """Text safe inside HTML and attributes."""
-    return html.escape(str(text), quote=True)
-
-
-def setting(value, digits=9):
-    """A parameter or record entry: a number with at most that many digits, a dash for None, other values as they are."""
-    if value is None:
-        return "–"
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return escaped(value)
-    return f"{value:.{digits}g}"
-
-
-def figures(value, digits=4):
-    """A measured number with exactly that many significant digits, a dash for None."""
-    if value is None:
-        return "–"
-    text = f"{value:,.0f}".replace(",", "\u2009") if abs(value) >= 10**digits else f"{value:#.{digits}g}".rstrip(".")
-    return text.replace("-", "−")
-
-
-def percent(value):
-    """A relative difference in per cent, with its sign."""
-    if value is None:
-        return "–"
-    if abs(value) < 1e-5:
-        return "0 %" if value == 0 else "< 0.001 %"
-    return f"{100 * value:+#.3g} %".replace("-", "−").replace(". ", " ")
-
-
 def run_colours(a, b):
     """Style sheet rules that give each run its engine's colour, on light and on dark ground."""
     (a_light, a_dark), (b_light, b_dark) = style.colours(a, b)
@@ -192,11 +166,6 @@ def interpolation_note(found):
         return ""
     error = found["interpolation_error_nm"]
     return ", interpolated shapes" if error is None else f"; up to {figures(error, 2)} nm of it interpolation"
-
-
-def quantity(value, digits, unit):
-    """A measured number with its unit; "none" when it does not exist."""
-    return "none" if value is None else f'{figures(value, digits)} <span class="unit">{unit}</span>'
 
 
 def legend(labels):
@@ -274,35 +243,22 @@ def basis_table(a, b, labels):
     return table(["", *map(escaped, labels)], rows, "text")
 
 
-def parameters_table(a, b, labels):
-    """All parameters of both runs; those that differ are marked, an engine's own only between runs of one engine."""
+def parameter_rows(a, b):
+    """All parameters of both runs as rows of a table; those that differ are marked, an engine's own only between runs of one engine."""
     flat_a, flat_b = flat_parameters(a.parameters), flat_parameters(b.parameters)
     rows = []
     for key in dict.fromkeys([*flat_a, *flat_b]):
         values = flat_a.get(key), flat_b.get(key)
         differs = values[0] != values[1] and (a.engine == b.engine or key.split(".")[0] not in ENGINE_SECTIONS)
-        rows.append(
-            ("differs" if differs else "", [f"<code>{escaped(key)}</code>", *(setting(value) for value in values)])
-        )
-    return table(["", *map(escaped, labels)], rows, "text")
+        rows.append(("differs" if differs else "", [code(key), *map(setting, values)]))
+    return rows
 
 
 def provenance_table(a, b, labels):
     """Everything else in run.json: versions, host, times."""
-    flat_a, flat_b = (flattened({k: v for k, v in run.record.items() if k != "parameters"}) for run in (a, b))
+    flat_a, flat_b = (flattened({k: v for k, v in run.record.items() if k not in TOLD}) for run in (a, b))
     keys = list(dict.fromkeys([*flat_a, *flat_b]))
     rows = [
-        ("", [f"<code>{escaped(key)}</code>", setting(flat_a.get(key), 6), setting(flat_b.get(key), 6)]) for key in keys
+        ("", [code(key), setting(flat_a.get(key), 6), setting(flat_b.get(key), 6)]) for key in keys
     ]
     return table(["", *map(escaped, labels)], rows, "text")
-
-
-def flattened(tree, prefix=""):
-    """{"a.b": value} of nested dicts; lists become text."""
-    flat = {}
-    for key, value in tree.items():
-        if isinstance(value, dict):
-            flat.update(flattened(value, f"{prefix}{key}."))
-        else:
-            flat[prefix + key] = ", ".join(map(str, value)) if isinstance(value, list) else value
-    return flat

@@ -5,7 +5,7 @@ from comparisons.measures.basis import basis
 from comparisons.measures.certificate import in_words
 from comparisons.measures.metrics import flat_parameters
 from comparisons.page import report
-from comparisons.page.report import escaped, figures, quantity, setting
+from comparisons.page.numbers import code, escaped, figures, flattened, quantity, setting
 from comparisons.page.study_report import page, parameters_table
 from endoflow.history import unit_of
 
@@ -68,19 +68,19 @@ def parts_in_words(entry):
 
 
 def last_row(run):
-    """Every column's last value with its unit."""
-    rows = []
+    """Every column's last value with its unit and what it is."""
+    rows, meanings = [], run.record.get("columns", {})
     for column, values in run.history.items():
         value, unit = float(values[-1]), unit_of(column)
         shown = "–" if value != value else figures(value, 5)
-        rows.append(("", [f"<code>{escaped(column)}</code>", shown, escaped("" if unit == "1" else unit)]))
-    return report.table(["", "value", "unit"], rows)
+        rows.append(("", [code(column), shown, escaped("" if unit == "1" else unit), escaped(meanings.get(column, ""))]))
+    return report.table(["", "value", "unit", "what it is"], rows, "words-last")
 
 
 def provenance(run):
     """Everything else in run.json."""
-    record = {key: value for key, value in run.record.items() if key not in ("parameters", "alarms", "certificate")}
-    flat = report.flattened(record)
+    record = {key: value for key, value in run.record.items() if key not in (*report.TOLD, "certificate")}
+    flat = flattened(record)
     return report.table(
-        ["", ""], [("", [f"<code>{escaped(key)}</code>", setting(value, 6)]) for key, value in flat.items()], "text"
+        ["", ""], [("", [code(key), setting(value, 6)]) for key, value in flat.items()], "text"
     )

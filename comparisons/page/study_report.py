@@ -3,7 +3,7 @@
 from comparisons.drawing.study_plots import TITLES
 from comparisons.measures.convergence import DISTANCES
 from comparisons.page import report
-from comparisons.page.report import escaped, figures, quantity, setting
+from comparisons.page.numbers import code, escaped, figures, quantity, setting
 from comparisons.studies.sweep_table import mixed_programs
 from endoflow.history import name_and_unit
 
@@ -168,7 +168,7 @@ def basis_table(metrics):
 
 def parameters_table(parameters):
     """All parameters that the runs share."""
-    rows = [("", [f"<code>{escaped(key)}</code>", setting(value)]) for key, value in parameters.items()]
+    rows = [("", [code(key), setting(value)]) for key, value in parameters.items()]
     return report.table(["", "value"], rows, "text")
 
 

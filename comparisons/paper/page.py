@@ -3,7 +3,7 @@
 from comparisons.drawing import style
 from comparisons.measures.basis import basis
 from comparisons.page import report
-from comparisons.page.report import escaped
+from comparisons.page.numbers import escaped, figures, setting
 from comparisons.page.study_report import page
 
 from .item import is_run
@@ -51,7 +51,7 @@ def printed_table(printed):
 def numbers_table(rows):
     """The rows of the CSV file."""
     heads = [escaped(column.replace("_", " ")) for column in rows[0]]
-    body = [("", [report.setting(value, 5) for value in row.values()]) for row in rows]
+    body = [("", [setting(value, 5) for value in row.values()]) for row in rows]
     return f"<details><summary>{len(rows)} rows</summary>{report.table(heads, body)}</details>"
 
 
@@ -67,10 +67,10 @@ def runs_table(runs):
             record, (convention, resolved, alarmed) = found.record, [value for _, value in basis(found)]
             cells = [
                 escaped(record["exit_reason"]),
-                report.setting(float(found.history["time_us"][-1]), 5),
+                setting(float(found.history["time_us"][-1]), 5),
                 escaped(f"{resolved}; {convention}"),
                 escaped(alarmed),
-                report.figures(record.get("wall_s"), 3),
+                figures(record.get("wall_s"), 3),
                 f"<code>{escaped(found.directory)}</code>",
             ]
             rows.append(("", [*head, *cells]))

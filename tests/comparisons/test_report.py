@@ -10,10 +10,12 @@ from pathlib import Path
 import locations
 import synthetic
 from browser import Browser, chromium
+from comparisons.page.numbers import code, figures, flattened, percent, setting
 
 READY = "document.documentElement?.dataset.ready === 'true'"
 PICTURE = "document.getElementById('membranes').toDataURL()"
 SLIDER = "document.getElementById('time')"
+CHARTS = (locations.ROOT / "comparisons" / "page" / "assets" / "charts.js").read_text(encoding="utf-8")
 FRAME = f"Number({SLIDER}.value)"
 
 #: Moves the slider over 60 frames as a user's drag does; the answer is the mean time of one, in ms, and how often the
@@ -178,12 +180,70 @@ class Report(unittest.TestCase):
         self.assertEqual(float(found["pictures"]), self.browser.evaluate(f"Number({SLIDER}.max)") + 1)
         self.assertGreater(float(found["pictures a second"]), 0)
 
+    def chart_code(self, expression):
+        """Value of an expression that sees the functions of charts.js."""
+        return self.browser.evaluate(f"(() => {{ {CHARTS}\nreturn {expression}; }})()")
+
+    def test_ticks_of_one_axis_are_written_alike(self):
+        for ticks, texts in (
+            ([1e-4, 1e-2, 1], ["10⁻⁴", "10⁻²", "10⁰"]),
+            ([0, 0.00015, 0.0003], ["0", "1.5·10⁻⁴", "3·10⁻⁴"]),
+            ([-0.5, 0, 20000], ["-0.5", "0", "20000"]),
+        ):
+            self.assertEqual(self.chart_code(f"tickTexts({ticks})"), texts)
+
+    def test_time_axis_has_at_least_four_ticks(self):
+        for last in (0.011, 0.86, 1, 1.9, 3, 4.1, 20):
+            count = len(self.chart_code(f"roundTicks(0, {last}, false, 4)"))
+            self.assertTrue(4 <= count <= 7, (last, count))
+
+    def test_lines_of_charts_end_at_the_axis(self):
+        """A strain that starts from zero lies below every logarithmic axis."""
+        shown = self.browser.evaluate(
+            "[...document.querySelectorAll('#charts svg')].map((svg) => [svg.querySelector('.frame').getAttribute('d'),"
+            " svg.querySelector('clipPath rect').getAttribute('height'),"
+            " [...svg.querySelectorAll('.series-0, .series-1')].map((p) => p.getAttribute('clip-path') === `url(#${svg.querySelector('clipPath').id})`)])"
+        )
+        self.assertGreater(len(shown), 5)
+        for frame, height, clipped in shown:
+            self.assertEqual(frame.split("V")[1].split("H")[0], height)
+            self.assertEqual(clipped, [True, True])
+
+    def test_buttons_are_whole_on_a_phone(self):
+        self.browser.resize(390, 844)
+        for name in ("theme-toggle", "play"):
+            room = self.browser.evaluate(f"(() => {{ const b = document.getElementById('{name}'); return b.scrollWidth - b.clientWidth; }})()")
+            self.assertEqual(room, 0, name)
+
     def test_every_control_has_a_name(self):
         unnamed = self.browser.evaluate(
             "[...document.querySelectorAll('button, input, canvas, #charts svg')].filter((e) =>"
             " !(e.getAttribute('aria-label') || e.closest('label'))).map((e) => e.outerHTML)"
         )
         self.assertEqual(unnamed, [])
+
+
+class Numbers(unittest.TestCase):
+    """How numbers and entries are written."""
+
+    def test_measured_numbers(self):
+        for value, text in ((0.0002395, "0.0002395"), (-3.2e-7, "−3.200·10⁻⁷"), (24996.05, "24\u2009996"), (None, "–")):
+            self.assertEqual(figures(value), text)
+
+    def test_relative_differences(self):
+        for value, text in ((0.00762, "+0.762 %"), (-1e-6, "< 0.001 %"), (12.0, "+1.20·10³ %"), (-0.5, "−50.0 %"), (1.0, "+100 %")):
+            self.assertEqual(percent(value), text)
+
+    def test_settings_are_those_of_a_case_file(self):
+        self.assertEqual([setting(value) for value in (True, 1e-9, 80.0, "<box>")], ["true", "1e-09", "80", "&lt;box&gt;"])
+
+    def test_records_in_lists_have_a_row_for_each_entry(self):
+        tree = {"segments": [{"begin_us": 0.0, "parameters": {"time.end": 1.0}}, {"begin_us": 0.5}], "orders": [1, 2], "alarms": []}
+        flat = {"segments.0.begin_us": 0.0, "segments.0.parameters.time.end": 1.0, "segments.1.begin_us": 0.5, "orders": "1, 2", "alarms": ""}
+        self.assertEqual(flattened(tree), flat)
+
+    def test_names_break_at_dots_and_underscores(self):
+        self.assertEqual(code("time.max_step"), "<code>time.<wbr>max_<wbr>step</code>")
 
 
 @unittest.skipUnless(chromium(), "chromium is not installed (Debian package chromium)")

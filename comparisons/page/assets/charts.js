@@ -29,18 +29,27 @@ function roundTicks(low, high, logarithmic, count) {
   }
   const rough = (high - low) / count;
   const unit = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((factor) => factor * unit).find((candidate) => candidate >= rough);
+  const step = [1, 2, 5, 10].map((factor) => factor * unit).find((candidate) => candidate >= rough / 1.5);
   const ticks = [];
   for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) ticks.push(i * step);
   return ticks;
 }
 
-function tickText(value) {
+/** True for a value that is written without a power of ten. */
+function isPlain(value) {
+  return value === 0 || (Math.abs(value) >= 1e-3 && Math.abs(value) < 1e5);
+}
+
+/** Texts of an axis' ticks: all plain, or all with powers of ten. */
+function tickTexts(ticks) {
+  return ticks.every(isPlain) ? ticks.map((tick) => String(+tick.toPrecision(4))) : ticks.map((tick) => powerText(+tick.toPrecision(4)));
+}
+
+/** A value with a power of ten and that many digits behind the point, without a number as many as it has; a factor of 1 is left out. */
+function powerText(value, digits) {
   if (value === 0) return "0";
-  const size = Math.abs(value);
-  if (size >= 1e-3 && size < 1e5) return String(+value.toPrecision(4));
-  const [factor, power] = value.toExponential(0).split("e");
-  return `${factor === "1" ? "" : `${factor}·`}10${superscript(power.replace("+", ""))}`;
+  const [factor, power] = value.toExponential(digits).split("e");
+  return `${factor === "1" ? "" : `${factor.replace("-", "−")}·`}10${superscript(power.replace("+", ""))}`;
 }
 
 function superscript(text) {
@@ -80,7 +89,7 @@ function linePath(line, toX, toY) {
   let path = "", pen = "M";
   line.value.forEach((value, i) => {
     const y = toY(value);
-    if (!Number.isFinite(y) || y > CHART.height || line.time[i] < report.timeAxis.first) { pen = "M"; return; }
+    if (!Number.isFinite(y) || line.time[i] < report.timeAxis.first) { pen = "M"; return; }
     path += `${pen}${toX(line.time[i]).toFixed(1)} ${y.toFixed(1)}`;
     pen = "L";
   });
@@ -101,20 +110,27 @@ function drawChart(chart, parent, seek) {
   const [low, high] = valueRange(chart);
   const toX = axisMap(first, last, CHART.left, right, logarithmic);
   const toY = axisMap(low, high, bottom, CHART.top, chart.logarithmic);
-  for (const tick of roundTicks(low, high, chart.logarithmic, 4)) {
-    svgElement("line", { class: "grid", x1: CHART.left, x2: right, y1: toY(tick), y2: toY(tick) }, svg);
-    svgElement("text", { x: CHART.left - 6, y: toY(tick) + 4, "text-anchor": "end" }, svg).textContent = tickText(tick);
-  }
-  for (const tick of roundTicks(first, last, logarithmic, 4)) {
-    svgElement("line", { class: "grid", x1: toX(tick), x2: toX(tick), y1: CHART.top, y2: bottom }, svg);
-    svgElement("text", { x: toX(tick), y: bottom + 16, "text-anchor": "middle" }, svg).textContent = tickText(tick);
-  }
+  const levels = roundTicks(low, high, chart.logarithmic, 4), times = roundTicks(first, last, logarithmic, 4);
+  tickTexts(levels).forEach((text, i) => {
+    const y = toY(levels[i]);
+    svgElement("line", { class: "grid", x1: CHART.left, x2: right, y1: y, y2: y }, svg);
+    svgElement("text", { x: CHART.left - 6, y: y + 4, "text-anchor": "end" }, svg).textContent = text;
+  });
+  tickTexts(times).forEach((text, i) => {
+    const x = toX(times[i]);
+    svgElement("line", { class: "grid", x1: x, x2: x, y1: CHART.top, y2: bottom }, svg);
+    svgElement("text", { x, y: bottom + 16, "text-anchor": "middle" }, svg).textContent = text;
+  });
   svgElement("text", { x: 4, y: bottom + 16 }, svg).textContent = "t (µs)";
   if (chart.level !== null && chart.level > low && chart.level < high) {
     svgElement("line", { class: "level", x1: CHART.left, x2: right, y1: toY(chart.level), y2: toY(chart.level) }, svg);
   }
   svgElement("path", { class: "frame", d: `M${CHART.left} ${CHART.top}V${bottom}H${right}`, style: "stroke-width:1" }, svg);
-  chart.lines.forEach((line, index) => svgElement("path", { class: `series-${index}`, d: linePath(line, toX, toY) }, svg));
+  // What is lower than a logarithmic axis shows ends at the axis.
+  const clip = svgElement("clipPath", { id: `plot-area-${parent.children.length}` }, svg);
+  svgElement("rect", { x: 0, y: 0, width: CHART.width, height: bottom }, clip);
+  chart.lines.forEach((line, index) =>
+    svgElement("path", { class: `series-${index}`, d: linePath(line, toX, toY), "clip-path": `url(#${clip.id})` }, svg));
   if (!chart.lines.some((line) => line.value.some(Number.isFinite))) {
     svgElement("text", { x: (CHART.left + right) / 2, y: (CHART.top + bottom) / 2, "text-anchor": "middle" }, svg).textContent =
       "none in either run";

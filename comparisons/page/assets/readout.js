@@ -4,7 +4,7 @@
 function numberText(value) {
   if (!Number.isFinite(value)) return "–";
   const size = Math.abs(value);
-  if (size !== 0 && size < 1e-3) return value.toExponential(2).replace("-", "−");
+  if (size !== 0 && size < 1e-3) return powerText(value, 2);
   return size >= 1000 ? value.toFixed(0) : value.toPrecision(4);
 }
 
