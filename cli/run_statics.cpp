@@ -30,6 +30,9 @@ int run(int argc, char** argv) {
                    "section.key=END: all stationary shapes from the case's value to END");
     app.add_flag("--disc-mass", request.disc_mass,
                  "the molecules' mass is π patch_radius², not that of the initial profile, which is a little larger");
+    app.add_option("--elements", request.resolution.elements,
+                   "of the collocation while a branch is followed; a state is solved on twice as many")
+        ->capture_default_str();
     app.add_option("--family", family, "of a vesicle: prolate, oblate or stomatocyte [as the case's spheroid is]");
     if (!parse(app, argc, argv)) return 0;
     require_one_process("endoflow statics", "");

@@ -149,8 +149,12 @@ Branch follow_branch(const BoundaryValueProblem& problem, const GaussRule& rule,
             continue;
         }
         if (!arrives && next->point.tangent.parameter * branch.last.tangent.parameter < 0) {
-            if (auto fold = locate_fold(problem, rule, branch.last, step, next->point.tangent.parameter))
-                branch.folds.push_back(std::move(*fold));
+            auto fold = locate_fold(problem, rule, branch.last, step, next->point.tangent.parameter);
+            if (!fold) {  // the corrector failed on the way there: nearer to the fold it does not
+                step *= 0.5;
+                continue;
+            }
+            branch.folds.push_back(std::move(*fold));
             ++next->point.folds_before;
         }
         branch.last = std::move(next->point);

@@ -59,7 +59,10 @@ std::optional<NewtonResult> solve_newton(const BoundaryValueProblem& problem, co
         result.solution = std::move(step->solution);
         const bool round_off = result.last_change < stagnation && step->size > 0.1 * result.last_change;
         if (step->damping == 1 && (step->size < converged || round_off)) {
-            result.tangent = linearised.tangent();
+            // At the solution, not before the last change: the parameter's part of a tangent may be as small as that.
+            const LinearisedCollocation here(problem, rule, result.solution, condition);
+            if (!here.usable()) return std::nullopt;
+            result.tangent = here.tangent();
             ++result.iterations;
             return result;
         }

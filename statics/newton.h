@@ -8,7 +8,7 @@ namespace endoflow::statics {
 
 struct NewtonResult {
     PiecewiseSolution solution;
-    PiecewiseSolution tangent;  // of the branch, along the condition's normal; its error is of the size of last_change
+    PiecewiseSolution tangent;  // of the branch, along the condition's normal
     int iterations = 0;
     double last_change = 0;  // of the last step, in units of the scales
 };

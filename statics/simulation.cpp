@@ -130,7 +130,7 @@ ExitReason write_branch(const Parameters& parameters, const Request& request, co
         left_the_box = is_load(key) && reaches_the_top(parameters, point.solution);
         return interruption_signal() == 0 && !left_the_box;
     };
-    const auto branch = continue_state(state, solved, number_of(parameters, key), end, visit);
+    const auto branch = continue_state(state, solved, number_of(parameters, key), end, visit, request.resolution);
     if (!branch)
         throw SolverError("no-convergence", "Newton's method failed at the first point of the branch",
                           "choose another parameter or start from another case");
@@ -186,6 +186,10 @@ EngineIdentity identity(const Parameters& parameters) {
 
 void require_stationary_model(const Parameters& parameters, const Request& request) {
     require_no_exchange(parameters, "statics");
+    const std::size_t elements = request.resolution.elements;
+    if (elements < fewest_elements || elements > most_elements)
+        throw InputError(fmt::format("command line: --elements {}: it must be between {} and {}", elements,
+                                     fewest_elements, most_elements));
     if (is_vesicle(parameters)) {
         if (request.disc_mass) throw InputError("command line: --disc-mass does not go with a vesicle");
         (void)vesicle_case(parameters);
@@ -203,10 +207,10 @@ ExitReason simulate(const Parameters& parameters, const Request& request, RunOut
     Search search;
     {
         const PhaseTimer timer(output, "search");
-        search = search_stationary_state(solved);
+        search = search_stationary_state(solved, request.resolution);
     }
     if (search.branch) output.note("folds_on_the_way", describe_folds(search.branch->folds, search.key));
-    if (!search.state) throw explain_absence(solved, search);
+    if (!search.state) throw explain_absence(solved, search, request.resolution);
     const StationaryState& state = *search.state;
 
     const PhaseTimer timer(output, request.continuation ? "branch" : "output");

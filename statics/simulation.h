@@ -17,7 +17,10 @@ struct Request {
     std::optional<Continuation> continuation;
     bool disc_mass = false;               // see with_disc_mass()
     std::optional<VesicleFamily> family;  // of a vesicle, instead of that of the case's spheroid
+    Resolution resolution;                // of the collocation
 };
+
+inline constexpr std::size_t fewest_elements = 8, most_elements = 10000;
 
 /// "molecules.patch_radius=30" as a continuation. Throws InputError: unknown key, one without influence, bad value.
 [[nodiscard]] Request::Continuation parse_continuation(const std::string& text, const Parameters& parameters);
@@ -26,7 +29,8 @@ struct Request {
 [[nodiscard]] VesicleFamily parse_family(const std::string& text);
 
 /// Throws InputError when the case has a membrane whose statics are not these: an extensible one, a vesicle with a
-/// patch; a patch that is too small for the request; or when the request does not go with the case's domain.kind.
+/// patch; a patch that is too small for the request; when the request does not go with the case's domain.kind; or for
+/// fewer elements than fewest_elements or more than most_elements.
 void require_stationary_model(const Parameters& parameters, const Request& request);
 
 /// The columns of history.csv depend on the case's domain.kind.

@@ -57,8 +57,9 @@ Json write_vesicle(StateWriter& writer, const Parameters& parameters, const Vesi
     return figures;
 }
 
-ExitReason write_branch(const Parameters& parameters, const Request::Continuation& continuation,
-                        const VesicleState& state, StateWriter& writer) {
+ExitReason write_branch(const Parameters& parameters, const Request& request, const VesicleState& state,
+                        StateWriter& writer) {
+    const Request::Continuation& continuation = *request.continuation;
     const std::string& key = continuation.key;
     const double begin = number_of(parameters, key);
     const auto named = [&](double value) {
@@ -72,7 +73,7 @@ ExitReason write_branch(const Parameters& parameters, const Request::Continuatio
         write_vesicle(writer, named(value), {membrane(value), point.solution, {}, 0}, point);
         return interruption_signal() == 0;
     };
-    const auto branch = continue_vesicle(state, membrane, begin, continuation.end, visit);
+    const auto branch = continue_vesicle(state, membrane, begin, continuation.end, visit, request.resolution);
     if (!branch)
         throw SolverError("no-convergence", "Newton's method failed at the first point of the branch",
                           "choose another parameter or start from another case");
@@ -92,13 +93,13 @@ ExitReason simulate_vesicle(const Parameters& parameters, const Request& request
     std::optional<VesicleState> state;
     {
         const PhaseTimer timer(output, "search");
-        state = find_vesicle(wanted.membrane, request.family.value_or(wanted.family));
+        state = find_vesicle(wanted.membrane, request.family.value_or(wanted.family), request.resolution);
     }
     const PhaseTimer timer(output, request.continuation ? "branch" : "output");
     output.note("relative_error", state->relative_error);
     output.note("elements", state->solution.elements());
     StateWriter writer(output);
-    if (request.continuation) return write_branch(parameters, *request.continuation, *state, writer);
+    if (request.continuation) return write_branch(parameters, request, *state, writer);
     const Json figures = write_vesicle(writer, parameters, *state, {state->solution, state->solution, 0, 0});
     output.note("stationary_state", figures);
     print_figures(figures);

@@ -136,6 +136,9 @@ void check_exchange(const Parameters& p, const Require& require) {
             "keeps no edge that could grow");
     require(!reservoir || m.on_rate + m.off_rate > 0,
             "molecules.exchange = \"reservoir\" needs molecules.on_rate or molecules.off_rate > 0");
+    require(!reservoir || m.pool_area == 0 || m.on_rate > 0,
+            fmt::format("molecules.pool_area = {:g} nm^2 limits what attaches: it needs molecules.on_rate > 0",
+                        m.pool_area));
     const bool sensing = m.curvature_sensing > 0;
     require(sensing == (m.molecule_area > 0) && (!sensing || m.off_rate > 0),
             "molecules.curvature_sensing and molecules.molecule_area need each other, and molecules.off_rate > 0");

@@ -90,6 +90,22 @@ class CommandLine(unittest.TestCase):
         self.assert_refused(endoflow("check", self.case("[fluid]\ninertia = 3\n")), 2, "true or false")
         self.assertFalse(output.exists())
 
+    def test_what_an_engine_does_not_have_is_named(self):
+        """Loads, coupling and exchange that a case may ask for, but not of every engine."""
+        coupling = '[molecules]\ncoupling = "energetic"\nline_energy = 20\n'
+        growth = '[molecules]\nexchange = "edge"\nedge_speed = 1e-3\n'
+        paper = ("--set", "phase_field.scheme=paper")
+        for engine, text, options, words in (
+            (("run", "phase-field"), coupling, (), ("molecules.coupling must be none", "phase-field engine")),
+            (("run", "phase-field"), "[membrane]\nrim_tension = 0.1\n", paper, ("membrane.rim_tension", "scheme paper")),
+            (("run", "phase-field"), growth, paper, ("molecules.exchange", "scheme paper")),
+            (("statics",), growth, (), ("molecules.exchange", "statics engine")),
+        ):
+            with self.subTest(engine=engine, options=options):
+                output = self.root / "out"
+                self.assert_refused(endoflow(*engine, self.case(text), "-o", output, *options), 2, *words)
+                self.assertFalse(output.exists())
+
     def test_bad_case_leaves_an_earlier_run_alone(self):
         output = self.root / "run"
         output.mkdir()

@@ -40,6 +40,22 @@ TEST_CASE("A branch is followed around a fold and the fold is located", "[static
     CHECK(branch.last.tangent.parameter < 0);
 }
 
+TEST_CASE("A tangent is that of the solution, wherever Newton's method came from", "[statics]") {
+    // Its part of the parameter, whose sign tells folds, may be far smaller than Newton's last change.
+    const GaussRule rule(4);
+    const auto problem = bratu_problem();
+    const auto solved = [&](const PiecewiseSolution& guess) {
+        return solve_newton(problem, rule, guess, parameter_condition(guess, 1, problem), 20);
+    };
+    const auto from_afar = solved(flat_solution(rule));
+    REQUIRE(from_afar);
+    const auto from_here = solved(from_afar->solution);
+    REQUIRE(from_here);
+    PiecewiseSolution difference = from_afar->tangent;
+    difference.add(-1, from_here->tangent);
+    CHECK(largest_entry(difference, problem) < 1e-12);
+}
+
 TEST_CASE("A branch ends exactly at its target", "[statics]") {
     const GaussRule rule(4);
     const auto problem = bratu_problem();

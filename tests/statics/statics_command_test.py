@@ -93,6 +93,20 @@ class Statics(unittest.TestCase):
         self.assertGreater(max(float(row["pole_force_pN"]) for row in rows), 33)
         self.assertGreater(float(rows[-1]["pole_extension_nm"]), 200)
 
+    def test_elements(self):
+        """A state's relative_error is what twice the elements change."""
+        errors = {}
+        for elements in (16, 32):
+            result = endoflow("statics", self.case, "-o", self.output, "--elements", elements)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            notes = json.loads((self.output / "run.json").read_text())["notes"]
+            self.assertEqual(notes["elements"], 2 * elements)
+            errors[elements] = notes["relative_error"]
+        self.assertLess(errors[32], errors[16] / 2**8)  # order 10 at the mesh points
+        for elements in (4, 1000000):
+            result = endoflow("statics", self.case, "-o", self.output, "--elements", elements)
+            self.assert_refused(result, 2, f"--elements {elements}: it must be between 8 and 10000")
+
     def test_a_case_beyond_the_fold(self):
         result = endoflow("statics", self.case, "-o", self.output, "--set", "molecules.patch_radius=26.5")
         self.assert_refused(result, 3, "no-stationary-state", "molecules.patch_radius = 25.594")
@@ -101,7 +115,10 @@ class Statics(unittest.TestCase):
     def test_bad_requests_write_nothing(self):
         for request, words in (("molecules.patch_radius", "END"), ("molecules.patch_radius=x", "number"),
                                ("molecules.patch_radius=90", "domain.radius"), ("molecules.patch_radius=22", "already"),
-                               ("molecules.patch_radios=30", "did you mean"), ("time.end=3", "can be continued in")):
+                               ("molecules.patch_radios=30", "did you mean"), ("time.end=3", "can be continued in"),
+                               ("membrane.rim_tension=-0.2", "where the flat membrane buckles"),
+                               ("membrane.pole_forse=3", "did you mean 'membrane.pole_force'"),
+                               ("molecules.line_energy=30", "can be continued in")):
             with self.subTest(request):
                 result = endoflow("statics", self.case, "-o", self.output, "--continue-in", request)
                 self.assert_refused(result, 2, words)

@@ -1,0 +1,100 @@
+// Loads and exchange: the work they do, and that nothing is left of them where they vanish.
+
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "boundary_integral/evolution/observation.h"
+#include "curves.h"
+
+namespace {
+
+using namespace endoflow;
+using namespace endoflow::boundary_integral;
+using endoflow::boundary_integral::testing::bulge;
+
+constexpr double pi = std::numbers::pi;
+
+struct LoadCase {
+    const char* name;
+    Parameters parameters;
+};
+
+Parameters unloaded(int elements) {
+    Parameters parameters;
+    parameters.boundary_integral.elements = elements;
+    return parameters;
+}
+
+// The standard case under one load each.
+std::vector<LoadCase> single_loads(int elements, double rim_tension, double pressure, double pole_force) {
+    LoadCase tension{"rim tension", unloaded(elements)}, push{"pressure", unloaded(elements)},
+        pull{"pole force", unloaded(elements)};
+    tension.parameters.membrane.rim_tension = rim_tension;
+    push.parameters.fluid.pressure_difference = pressure;
+    pull.parameters.membrane.pole_force = pole_force;
+    return {tension, push, pull};
+}
+
+// −σ A + p V + F z̄ of a curve, pN nm; z̄ by the trapezoidal rule over the material's area from the pole.
+double potential_of_loads(const Parameters& parameters, const MembraneSpace& space, const MembraneState& state) {
+    const Loads loads = loads_of(parameters);
+    const ShapeMeasures shape = measure_shape(space, state, parameters.domain);
+    constexpr int steps = 20000;
+    double area = 0, height = 0, slope_before = 0, pull_before = 0;
+    for (int i = 0; i <= steps; ++i) {
+        const double xi = static_cast<double>(i) / steps;
+        const CurvePoint p = curve_point(space.radial().basis(xi), space.axial().basis(xi), state);
+        const double slope = 2 * pi * p.r * p.g;
+        if (i > 0) area += (slope + slope_before) / (2 * steps);
+        const double pull = p.z * loads.force_share(area) * slope;
+        if (i > 0) height += (pull + pull_before) / (2 * steps);
+        slope_before = slope, pull_before = pull;
+    }
+    return -loads.rim_tension * shape.membrane_area + loads.pressure * shape.extracellular_volume +
+           loads.pole_force * height;
+}
+
+Eigen::VectorXd bulged(const MembraneDynamics& dynamics) {
+    return dynamics.packed(bulge(dynamics.space(), 25));
+}
+
+}  // namespace
+
+// What history.csv calls load_power is formed from the velocities; here it is what the curve's own A, V and z̄ gain
+// while it moves. Membrane that flows in at the rim takes no part in p V and F z̄, and is σ A.
+TEST_CASE("every load's power is the rate of the work done on the membrane", "[loads]") {
+    for (const auto& [name, parameters] : single_loads(48, 0.5, 0.02, 50)) {
+        CAPTURE(name);
+        const MembraneDynamics dynamics(parameters);
+        const Eigen::VectorXd y = bulged(dynamics);
+        const Evaluation e = dynamics.evaluate(y);
+        const double step = 1e-3 / e.rate.head(dynamics.size() - dynamics.space().axial_count()).cwiseAbs().maxCoeff();
+        const auto potential = [&](double time) {
+            return potential_of_loads(parameters, dynamics.space(), dynamics.unpack(y + time * e.rate));
+        };
+        const double rate = (potential(step) - potential(-step)) / (2 * step);
+        CHECK(rate == Approx(energy_balance(dynamics, e).external_power).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("as loads and exchange vanish the unloaded motion is left", "[loads]") {
+    const Parameters none = unloaded(24);
+    const MembraneDynamics dynamics(none);
+    const Eigen::VectorXd y = bulged(dynamics), rate = dynamics.evaluate(y).rate;
+    std::vector<LoadCase> cases = single_loads(24, 1e-12, 1e-14, 1e-10);  // of some pN/nm, 0.1 pN/nm², 100 pN that move
+    LoadCase reservoir{"reservoir", none}, edge{"edge", none};
+    reservoir.parameters.molecules.exchange = Exchange::reservoir;
+    reservoir.parameters.molecules.on_rate = reservoir.parameters.molecules.off_rate = 1e-12;
+    edge.parameters.molecules.exchange = Exchange::edge;
+    edge.parameters.molecules.edge_speed = 1e-12;
+    cases.insert(cases.end(), {reservoir, edge});
+    for (const auto& [name, parameters] : cases) {
+        CAPTURE(name);
+        const Eigen::VectorXd vanishing = MembraneDynamics(parameters).evaluate(y).rate;
+        CHECK((vanishing - rate).norm() < 1e-10 * rate.norm());
+    }
+    // Where a load is 0 nothing reads the rest of its keys.
+    Parameters zero = none;
+    zero.membrane.pole_force_width = 20;
+    CHECK(MembraneDynamics(zero).evaluate(y).rate == rate);
+}
