@@ -63,8 +63,9 @@ Eigen::VectorXd bulged(const MembraneDynamics& dynamics) {
 // What history.csv calls load_power is formed from the velocities; here it is what the curve's own A, V and z̄ gain
 // while it moves. Membrane that flows in at the rim takes no part in p V and F z̄, and is σ A.
 TEST_CASE("every load's power is the rate of the work done on the membrane", "[loads]") {
-    for (const auto& [name, parameters] : single_loads(48, 0.5, 0.02, 50)) {
-        CAPTURE(name);
+    for (const LoadCase& loaded : single_loads(48, 0.5, 0.02, 50)) {
+        CAPTURE(loaded.name);
+        const Parameters& parameters = loaded.parameters;
         const MembraneDynamics dynamics(parameters);
         const Eigen::VectorXd y = bulged(dynamics);
         const Evaluation e = dynamics.evaluate(y);
