@@ -214,7 +214,8 @@ def run(options):
         for item in chosen(options):
             result = write_item(item, runs_of(item, asked, found), options, output)
             print("\n".join(page.summary_lines(item, result, output / item)))
-        write_table(output / "runs.csv", run_table.rows(members))
+        if members:  # branches of stationary shapes are no runs
+            write_table(output / "runs.csv", run_table.rows(members))
         write_text(output / "index.html", page.index_html(output))
         print(f"pages   {output / 'index.html'}")
     return RUN_FAILED if found and len(not_run(found)) == len(found) else 0
