@@ -3,18 +3,15 @@
 import shutil
 import subprocess
 
+import numpy as np
+
 from comparisons.drawing import style
-
-style.apply()
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-import numpy as np  # noqa: E402
-
-from comparisons.drawing.pictures import draw_membrane  # noqa: E402
-from comparisons.drawing.plots import vertical_range  # noqa: E402
-from comparisons.errors import IO_FAILURE, StudyError, last_line  # noqa: E402
-from comparisons.measures.extent import half_width  # noqa: E402
-from comparisons.measures.time_axis import LOG_FROM, LOG_START  # noqa: E402
+from comparisons.drawing.pictures import draw_membrane
+from comparisons.drawing.plots import vertical_range
+from comparisons.drawing.pyplot import plt
+from comparisons.errors import IO_FAILURE, StudyError, last_line
+from comparisons.measures.extent import half_width
+from comparisons.measures.time_axis import LOG_FROM, LOG_START
 
 #: Pixels per inch of a frame, and share of the film that shows the time up to a little after an early budding.
 DOTS, EARLY_SHARE = 100, 0.6

@@ -1,15 +1,12 @@
 """Plots of an inference: data with bands, posterior, what the data separate, ranks, sensitivities."""
 
+import numpy as np
+from scipy.stats import binom, chi2
+
 from comparisons.drawing import style
-
-style.apply()
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-import numpy as np  # noqa: E402
-from scipy.stats import binom, chi2  # noqa: E402
-
-from comparisons.drawing.plots import save_all  # noqa: E402
-from comparisons.inference.calibration import GROUPS  # noqa: E402
+from comparisons.drawing.plots import save_all
+from comparisons.drawing.pyplot import plt
+from comparisons.inference.calibration import GROUPS
 
 DATA, MODEL, LINEAR = "#333333", "#0072B2", "#D55E00"
 

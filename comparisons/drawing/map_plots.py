@@ -1,16 +1,12 @@
 """The map of outcomes over two parameters."""
 
-from comparisons.drawing import style
+import math
 
-style.apply()
+import numpy as np
 
-import math  # noqa: E402
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-import numpy as np  # noqa: E402
-
-from comparisons.drawing.plots import save  # noqa: E402
-from comparisons.studies.outcome_map import OUTCOMES  # noqa: E402
+from comparisons.drawing.plots import save
+from comparisons.drawing.pyplot import plt
+from comparisons.studies.outcome_map import OUTCOMES
 
 #: Marker and colour of each outcome (Okabe and Ito).
 LOOKS = dict(

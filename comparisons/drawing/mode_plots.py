@@ -1,14 +1,11 @@
 """Plots of the azimuthal modes of a run."""
 
+import numpy as np
+from matplotlib.colors import LinearSegmentedColormap
+
 from comparisons.drawing import style
-
-style.apply()
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-import numpy as np  # noqa: E402
-from matplotlib.colors import LinearSegmentedColormap  # noqa: E402
-
-from comparisons.drawing.plots import save_all  # noqa: E402
+from comparisons.drawing.plots import save_all
+from comparisons.drawing.pyplot import plt
 
 #: From the lowest mode to the highest; lightness is monotone.
 MODE_COLOURS = LinearSegmentedColormap.from_list("modes", ("#8E1068", "#0072B2", "#56B4A0", "#B9C76A"))

@@ -3,16 +3,13 @@
 import textwrap
 from collections import namedtuple
 
+import numpy as np
+from scipy.spatial import cKDTree
+
+from comparisons.drawing import plots
 from comparisons.drawing import style
-
-style.apply()
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-import numpy as np  # noqa: E402
-from scipy.spatial import cKDTree  # noqa: E402
-
-from comparisons.drawing import plots  # noqa: E402
-from endoflow.curves import arc_length  # noqa: E402
+from comparisons.drawing.pyplot import plt
+from endoflow.curves import arc_length
 
 #: Distance of arrows along the membrane, and of those in the fluid, nm.
 ARROW_SPACING, FLUID_SPACING = 8.0, 9.0

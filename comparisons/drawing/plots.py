@@ -1,20 +1,17 @@
 """Static plots of a comparison, each written as PNG and SVG on light ground."""
 
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.ticker import LogLocator, NullFormatter
+from scipy.integrate import trapezoid
+
 from comparisons.drawing import style
-
-style.apply()
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-import numpy as np  # noqa: E402
-from matplotlib.collections import LineCollection  # noqa: E402
-from matplotlib.ticker import LogLocator, NullFormatter  # noqa: E402
-from scipy.integrate import trapezoid  # noqa: E402
-
-from comparisons.files import named  # noqa: E402
-from comparisons.measures.extent import half_width  # noqa: E402
-from comparisons.measures.metrics import compared, concentration_profile, last_budding  # noqa: E402
-from comparisons.measures.time_axis import time_axis  # noqa: E402
-from endoflow.curves import resample  # noqa: E402
+from comparisons.drawing.pyplot import plt
+from comparisons.files import named
+from comparisons.measures.extent import half_width
+from comparisons.measures.metrics import compared, concentration_profile, last_budding
+from comparisons.measures.time_axis import time_axis
+from endoflow.curves import resample
 
 #: Panels of the picture of both membranes, and spacing (nm) of the drawn curve.
 PANELS = 4

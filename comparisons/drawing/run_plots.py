@@ -1,14 +1,11 @@
 """Plots of a single run."""
 
+import numpy as np
+
 from comparisons.drawing import style
-
-style.apply()
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-import numpy as np  # noqa: E402
-
-from comparisons.drawing.pictures import Panel, gallery  # noqa: E402
-from comparisons.drawing.plots import save_all  # noqa: E402
+from comparisons.drawing.pictures import Panel, gallery
+from comparisons.drawing.plots import save_all
+from comparisons.drawing.pyplot import plt
 
 #: Panels of the picture of the membrane.
 PANELS = 4

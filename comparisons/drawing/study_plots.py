@@ -2,18 +2,15 @@
 
 import textwrap
 
+import matplotlib
+import numpy as np
+from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
+
 from comparisons.drawing import style
-
-style.apply()
-
-import matplotlib  # noqa: E402  (after the backend is chosen)
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from matplotlib.ticker import LogLocator, NullFormatter, NullLocator  # noqa: E402
-
-from comparisons.drawing.plots import DRAWN_SPACING, legend_on_top, save_all, vertical_range  # noqa: E402
-from comparisons.measures.convergence import BUDDING, DISTANCES, PAIRS, at_time, error_of, value_of  # noqa: E402
-from endoflow.curves import resample  # noqa: E402
+from comparisons.drawing.plots import DRAWN_SPACING, legend_on_top, save_all, vertical_range
+from comparisons.drawing.pyplot import plt
+from comparisons.measures.convergence import BUDDING, DISTANCES, PAIRS, at_time, error_of, value_of
+from endoflow.curves import resample
 
 #: Titles of the quantities: name and unit.
 TITLES = {

@@ -1,15 +1,12 @@
 """Plots of a sweep: lines against one varied parameter, heat maps over two."""
 
+import numpy as np
+from matplotlib.ticker import NullFormatter, NullLocator
+
 from comparisons.drawing import style
-
-style.apply()
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-import numpy as np  # noqa: E402
-from matplotlib.ticker import NullFormatter, NullLocator  # noqa: E402
-
-from comparisons.drawing.plots import legend_on_top, save  # noqa: E402
-from comparisons.studies.ranges import as_number  # noqa: E402
+from comparisons.drawing.plots import legend_on_top, save
+from comparisons.drawing.pyplot import plt
+from comparisons.studies.ranges import as_number
 
 #: Columns of sweep.csv that are drawn, with their titles; the first three make the heat maps.
 QUANTITIES = {

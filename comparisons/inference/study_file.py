@@ -2,7 +2,6 @@
 
 import tomllib
 from dataclasses import dataclass
-from pathlib import Path
 
 from comparisons.errors import BAD_INPUT, IO_FAILURE, StudyError
 from comparisons.inference.observations import contour, event, history_data, run_data

@@ -2,25 +2,11 @@
 
 from dataclasses import dataclass, field
 
-from comparisons.drawing import style
+from comparisons.drawing.pyplot import plt
 
-style.apply()
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-
-from .item import (  # noqa: E402
-    BOUNDARY_INTEGRAL,
-    PHASE_FIELD,
-    Printed,
-    Result,
-    Wanted,
-    is_run,
-    not_run_remarks,
-    text,
-    value_at,
-)
-from .printed import QUICK_TIME, TIME, quick_sentence, settings  # noqa: E402
-from .table2 import PAPER_AREA  # noqa: E402
+from .item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, Wanted, is_run, state_of, text, value_at
+from .printed import QUICK_TIME, TIME, quick_sentence, settings
+from .table2 import PAPER_AREA
 
 TITLE = "Attribution: from the printed numerics to the sharp membrane"
 
@@ -92,22 +78,13 @@ def rows_of(runs, end):
     rows, before = [], None
     for rung in (*RUNGS, PRODUCTION, LIMIT):
         found = next(iter(runs[rung.name].values()), None)
-        area = value_at(found, AREA, end) if found is not None and is_run(found) else None
+        area = value_at(found, AREA, end) if is_run(found) else None
         row = {"rung": rung.name, "change": rung.what, "time_us": end, "area_nm2": area}
         row["change_nm2"] = None if None in (area, before) else area - before
-        row["state"] = state_of(found, area)
+        row["state"] = ("ended before: " if area is None and is_run(found) else "") + state_of(found)
         rows.append(row)
         before = before if area is None else area
     return rows
-
-
-def state_of(found, area):
-    """How a rung's run ended."""
-    if found is None:
-        return "not asked for"
-    if not is_run(found):
-        return f"not run: {found.reason}"
-    return found.record["exit_reason"] if area is not None else f"ended before: {found.record['exit_reason']}"
 
 
 def result(runs, quick):
@@ -123,7 +100,6 @@ def result(runs, quick):
         "the end is left out, and its change is part of the next one's.",
         *closure(rows),
         *quick_sentence(quick),
-        *not_run_remarks(runs),
     ]
     return Result(rows, {"attribution": (f"Membrane area at {end:g} µs", draw(rows))}, printed, remarks)
 

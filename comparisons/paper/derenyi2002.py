@@ -1,16 +1,12 @@
 """Derényi, Jülicher & Prost (2002): the force on a membrane tube against its length."""
 
-from comparisons.drawing import style
+import math
 
-style.apply()
+from comparisons.drawing.pyplot import plt
 
-import math  # noqa: E402
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-
-from .branches import followed  # noqa: E402
-from .histories import COLOURS  # noqa: E402
-from .item import Printed, Result, text  # noqa: E402
+from .branches import followed
+from .histories import COLOURS
+from .item import Printed, Result, text
 
 TITLE = "A tube pulled from a membrane (Derényi, Jülicher & Prost 2002)"
 SOURCE = "I. Derényi, F. Jülicher, J. Prost, Phys. Rev. Lett. 88, 238101 (2002)"

@@ -6,10 +6,11 @@ from .item import (
     Result,
     both_engines,
     end_of,
+    filled,
     final_value,
     is_run,
-    not_run_remarks,
     quick_remark,
+    state_of,
     text,
     value_at,
 )
@@ -35,28 +36,23 @@ def rows_of(runs):
     rows = []
     for name in TRANSPORTS:
         for engine, run in runs[name].items():
+            row = {"transport": name, "engine": engine, "state": state_of(run)}
+            rows.append(row)
             if not is_run(run):
-                rows.append({"transport": name, "engine": engine, "state": f"not run: {run.reason}"})
                 continue
             necks = run.history["neck_radius_nm"]
             smallest = float(min((n for n in necks if n == n), default=float("nan")))
-            rows.append(
-                {
-                    "transport": name,
-                    "engine": engine,
-                    "state": run.record["exit_reason"],
-                    "end_us": end_of(run),
-                    "budding_time_us": run.event_time("budding"),
-                    "smallest_neck_radius_nm": smallest if smallest == smallest else None,
-                    "neck_radius_at_0.5_us_nm": value_at(run, "neck_radius_nm", 0.5),
-                    "height_at_0.5_us_nm": value_at(run, "bud_height_nm", 0.5),
-                    "final_neck_radius_nm": final_value(run, "neck_radius_nm"),
-                    "final_height_nm": final_value(run, "bud_height_nm"),
-                    "final_largest_c": float(run.shapes[-1].c.max()),
-                }
-            )
-    columns = max(rows, key=len)
-    return [{column: row.get(column) for column in columns} for row in rows]
+            row |= {
+                "end_us": end_of(run),
+                "budding_time_us": run.event_time("budding"),
+                "smallest_neck_radius_nm": smallest if smallest == smallest else None,
+                "neck_radius_at_0.5_us_nm": value_at(run, "neck_radius_nm", 0.5),
+                "height_at_0.5_us_nm": value_at(run, "bud_height_nm", 0.5),
+                "final_neck_radius_nm": final_value(run, "neck_radius_nm"),
+                "final_height_nm": final_value(run, "bud_height_nm"),
+                "final_largest_c": float(run.shapes[-1].c.max()),
+            }
+    return filled(rows)
 
 
 def result(runs, quick):
@@ -86,7 +82,6 @@ def result(runs, quick):
         "time and goes on shrinking. So after that time the shapes agree in the bud and differ in the neck.",
         "The paper does not print the times of its panels; ours are before, at and after budding, and two of Fig. 4.",
         *quick_remark(quick),
-        *not_run_remarks(runs),
     ]
     names = history_names(TRANSPORTS, engines)
     figures = {

@@ -13,10 +13,11 @@ from .item import (
     Result,
     both_engines,
     end_of,
+    filled,
     final_value,
     is_run,
-    not_run_remarks,
     quick_remark,
+    state_of,
     text,
 )
 from .snapshots import membrane_in_fluid, moving_membrane, snapshots
@@ -69,12 +70,10 @@ def pinch_off_time(run):
 
 def row(name, engine, run):
     """One row of the table."""
+    head = {"dynamics": name, "engine": engine, "state": state_of(run)}
     if not is_run(run):
-        return {"dynamics": name, "engine": engine, "state": f"not run: {run.reason}"}
-    return {
-        "dynamics": name,
-        "engine": engine,
-        "state": run.record["exit_reason"],
+        return head
+    return head | {
         "end_us": end_of(run),
         "budding_time_us": run.event_time("budding"),
         "pinch_off_time_us": pinch_off_time(run),
@@ -95,9 +94,7 @@ def pinch_off_words(row):
 
 def result(runs, quick):
     """See item.Result."""
-    rows = [row(name, engine, run) for name in DYNAMICS for engine, run in runs[name].items()]
-    columns = max(rows, key=len)
-    rows = [{column: one.get(column) for column in columns} for one in rows]
+    rows = filled([row(name, engine, run) for name in DYNAMICS for engine, run in runs[name].items()])
     engines = list(dict.fromkeys(one["engine"] for one in rows))
 
     def of(name, column, digits=4):
@@ -136,7 +133,6 @@ def result(runs, quick):
         "without flow they show the membrane's velocity, which the phase field does not record.",
         *quick_remark(quick),
         *(["Quick: without flow the phase field's layer has 2.4 nm, twice the paper's."] if quick else []),
-        *not_run_remarks(runs),
     ]
     names = history_names(DYNAMICS, engines)
     figures = {

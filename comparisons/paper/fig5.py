@@ -4,7 +4,7 @@ from comparisons.drawing import style
 from comparisons.drawing.pictures import Panel, gallery
 
 from . import patch_sweep
-from .item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, is_run, last_time, not_run_remarks, quick_remark
+from .item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, is_run, last_time, quick_remark
 from .patch_sweep import STATIONARY, name_of
 from .snapshots import ended_because, sharp_of, with_line
 
@@ -20,7 +20,7 @@ def panel(radius, run, sharp=None):
     """The Panel of a run; sharp: the run of the sharp engine, for a dashed line, or None."""
     title = f"r_c = {radius} nm"
     if not is_run(run):
-        return Panel(title, f"not run: {run.reason}")
+        return Panel(title, state_of(run))
     time = min(STATIONARY, last_time(run))
     if time < STATIONARY:
         title += f", {time:.3g} µs" + ended_because(run).replace("\n", " ")
@@ -71,7 +71,6 @@ def result(runs, quick):
         "and the neck; that rise grows steadily with r_c and passes this limit where the paper sees the change. Roundness is "
         "the volume above the neck over that of the sphere of equal area.",
         *quick_remark(quick),
-        *not_run_remarks(runs),
     ]
     figures = {}
     for engine, name in ((BOUNDARY_INTEGRAL, "fig5"), (PHASE_FIELD, "fig5_phase_field")):

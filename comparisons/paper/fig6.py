@@ -3,28 +3,12 @@
 import numpy as np
 
 from comparisons.drawing import style
+from comparisons.drawing.pyplot import plt
+from comparisons.drawing.sweep_plots import LOOKS
 
-style.apply()
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-
-from comparisons.drawing.sweep_plots import LOOKS  # noqa: E402
-
-from . import patch_sweep  # noqa: E402
-from .item import (  # noqa: E402
-    NECK_CLOSED,
-    PHASE_FIELD,
-    Printed,
-    Result,
-    Wanted,
-    end_of,
-    final_value,
-    is_run,
-    not_run_remarks,
-    quick_remark,
-    text,
-)
-from .patch_sweep import EARLY, STATIONARY, of_engine  # noqa: E402
+from . import patch_sweep
+from .item import NECK_CLOSED, PHASE_FIELD, Printed, Result, Wanted, end_of, final_value, is_run, quick_remark, text
+from .patch_sweep import EARLY, STATIONARY, of_engine
 
 TITLE = "Fig. 6: vesicle diameter and neck radius by patch radius"
 
@@ -59,7 +43,7 @@ def late_necks(runs):
     found = []
     for radius in THIN_RADII:
         both = [runs.get(name, {}).get(PHASE_FIELD) for name in (patch_sweep.name_of(radius), thin_name(radius))]
-        if all(run is not None and is_run(run) for run in both):
+        if all(is_run(run) for run in both):
             words = " / ".join(f"{text(final_value(run, 'neck_radius_nm'), 3)} at {end_of(run):g} µs" for run in both)
             what = f"last neck radius at r_c = {radius} nm with layers of 1.2 / {THIN:g} nm, nm"
             found.append(Printed(what, "stationary", {PHASE_FIELD: words}))
@@ -137,7 +121,6 @@ def result(runs, quick):
         "diffuse layer; that this keeps the early order is a guess.",
         "The paper prints no numbers for the curves of Fig. 6; only those of its text are compared.",
         *quick_remark(quick),
-        *not_run_remarks(runs),
     ]
     title = f"At {STATIONARY:g} µs, or at the run's end if that is earlier"
     return Result(rows, {"fig6": (title, draw(rows))}, printed, remarks)

@@ -1,16 +1,12 @@
 """Fig. 7: time of budding against the patch radius."""
 
 from comparisons.drawing import style
+from comparisons.drawing.pyplot import plt
+from comparisons.drawing.sweep_plots import LOOKS
 
-style.apply()
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-
-from comparisons.drawing.sweep_plots import LOOKS  # noqa: E402
-
-from . import patch_sweep  # noqa: E402
-from .item import PHASE_FIELD, Printed, Result, not_run_remarks, quick_remark, text  # noqa: E402
-from .patch_sweep import best, of_engine  # noqa: E402
+from . import patch_sweep
+from .item import PHASE_FIELD, Printed, Result, quick_remark, text
+from .patch_sweep import best, of_engine
 
 TITLE = "Fig. 7: budding time by patch radius"
 
@@ -98,6 +94,5 @@ def result(runs, quick):
         ),
         "Crosses: runs whose neck never falls below 5 nm.",
         *quick_remark(quick),
-        *not_run_remarks(runs),
     ]
     return Result(rows, {"fig7": ("Budding time", draw(rows))}, printed, remarks)

@@ -1,16 +1,11 @@
 """Fig. A.2: the constitutive laws, and what they do to the standard case."""
 
-from comparisons.drawing import style
+from comparisons.drawing.plots import legend_on_top
+from comparisons.drawing.pyplot import plt
 
-style.apply()
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-
-from comparisons.drawing.plots import legend_on_top  # noqa: E402
-
-from .histories import COLOURS, history_figure  # noqa: E402
-from .item import BOUNDARY_INTEGRAL, Printed, Result, Wanted, is_run, not_run_remarks, text, value_at  # noqa: E402
-from .laws import constitutive_laws  # noqa: E402
+from .histories import COLOURS, history_figure
+from .item import BOUNDARY_INTEGRAL, Printed, Result, Wanted, is_run, text, value_at
+from .laws import constitutive_laws
 
 TITLE = "Fig. A.2: constitutive laws"
 
@@ -60,7 +55,7 @@ def result(runs, quick):
         ours = f"{b[0]:.4g}, {b[middle]:.4g}, {b[-1]:.4g} pN nm; {h[middle]:.4g}, {h[-1]:.4g} /nm"
         printed.append(Printed(f"{title}: b at c = 0, ½, 1; H₀ at ½, 1", "in the plot only", {"": ours}))
         run = runs[law].get(BOUNDARY_INTEGRAL)
-        if run is not None and is_run(run):
+        if is_run(run):
             neck, time = value_at(run, "neck_radius_nm", END), run.event_time("budding")
             height = value_at(run, "bud_height_nm", EARLY)
             words = f"budding {text(time)} µs; height at {EARLY:g} µs {text(height)} nm; neck at {END:g} µs {text(neck, 3)} nm"
@@ -71,7 +66,6 @@ def result(runs, quick):
         "(A.7) and (A.8) reach H₀ b_c/(b_c + b_m) at full cover, 11/12 of H₀, because the bare bilayer under the coat resists.",
         "The runs are an addition: the paper leaves the effect of the laws to future work. The function P(c) of (A.6) is "
         "left out as there; it would matter where molecules diffuse.",
-        *not_run_remarks(runs),
     ]
     names = {(law, BOUNDARY_INTEGRAL): title for law, (title, _) in LAWS.items()}
     figures = {

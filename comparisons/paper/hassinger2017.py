@@ -1,17 +1,14 @@
 """Hassinger, Oster, Drubin & Rangamani (2017): a growing coat under three tensions, and its snap-through."""
 
-from comparisons.drawing import style
+import math
 
-style.apply()
+import numpy as np
 
-import math  # noqa: E402
+from comparisons.drawing.pyplot import plt
 
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-import numpy as np  # noqa: E402
-
-from .branches import followed  # noqa: E402
-from .histories import COLOURS  # noqa: E402
-from .item import Printed, Result, text  # noqa: E402
+from .branches import followed
+from .histories import COLOURS
+from .item import Printed, Result, text
 
 TITLE = "Snap-through of a growing coat (Hassinger et al. 2017)"
 SOURCE = "J. E. Hassinger, G. Oster, D. G. Drubin, P. Rangamani, Proc. Natl. Acad. Sci. 114, E1118 (2017)"

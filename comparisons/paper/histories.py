@@ -1,15 +1,12 @@
 """Histories of several runs on the same axes."""
 
+import numpy as np
+
 from comparisons.drawing import style
+from comparisons.drawing.plots import legend_on_top
+from comparisons.drawing.pyplot import plt
 
-style.apply()
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-import numpy as np  # noqa: E402
-
-from comparisons.drawing.plots import legend_on_top  # noqa: E402
-
-from .item import is_run  # noqa: E402
+from .item import is_run
 
 COLUMNS = ("neck_radius_nm", "bud_diameter_nm", "bud_height_nm")
 
@@ -36,7 +33,7 @@ def history_figure(runs, names, columns=COLUMNS):
     handles, texts = [], []
     for (name, engine), legend in names.items():
         run = runs[name].get(engine)
-        if run is None or not is_run(run):
+        if not is_run(run):
             continue
         look = {"color": COLOURS[order.index(name) % len(COLOURS)], "linestyle": LINES[engine]}
         for axes, column in zip(grid, columns):

@@ -1,17 +1,7 @@
 """What inertia does: (32) with and without its first term, to 0.5 µs."""
 
 from .histories import history_figure
-from .item import (
-    BOUNDARY_INTEGRAL,
-    PHASE_FIELD,
-    Printed,
-    Result,
-    Wanted,
-    is_run,
-    not_run_remarks,
-    text,
-    value_at,
-)
+from .item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, Wanted, is_run, text, value_at
 from .printed import QUICK_TIME, TIME
 
 TITLE = "Inertia: Navier–Stokes and Stokes to 0.5 µs"
@@ -68,7 +58,6 @@ def result(runs, quick):
     remarks = [
         "The paper solves (32) with inertia and says that Stokes' equations could be solved instead where inertial forces are small. "
         "Momentum crosses the box in ρR²/ν₁ ≈ 6 ns: until then inertia delays the flux of volume, later it does not matter.",
-        *not_run_remarks(runs),
     ]
     names = {(name, engine): f"{name}, {engine}" for name, engines in runs.items() for engine in engines}
     figures = {"inertia": ("Volume gained, area and height", history_figure(runs, names, COLUMNS))}

@@ -45,7 +45,7 @@ class Result:
     """What an item shows.
 
     rows: for the CSV file, list of {column: value}; figures: {name: (title, matplotlib Figure)};
-    printed: list of Printed; remarks: sentences on what differs and why.
+    printed: list of Printed; remarks: sentences on what differs and why, to which the page adds the runs that are missing.
     """
 
     rows: list
@@ -64,8 +64,15 @@ def both_engines(name, case, settings, end, quick, quick_end=QUICK_END, quick_se
 
 
 def is_run(found):
-    """Whether there is a run to look at."""
-    return not isinstance(found, NotRun)
+    """Whether there is a run to look at; None is one that was not asked for."""
+    return found is not None and not isinstance(found, NotRun)
+
+
+def state_of(found):
+    """How a run ended, or why there is none."""
+    if found is None:
+        return "not asked for"
+    return found.record["exit_reason"] if is_run(found) else f"not run: {found.reason}"
 
 
 def last_time(run):
@@ -95,6 +102,12 @@ def text(value, digits=4, unit=""):
     return "–" if value is None else f"{value:.{digits}g}" + (f" {unit}" if unit else "")
 
 
+def filled(rows):
+    """The rows with the columns of the longest one, None where a row has none."""
+    columns = max(rows, key=len)
+    return [{column: row.get(column) for column in columns} for row in rows]
+
+
 def quick_remark(quick):
     """The sentence every item with quick phase-field runs shows."""
     if not quick:
@@ -108,7 +121,7 @@ def quick_remark(quick):
 def not_run_remarks(runs):
     """One sentence for each run that is missing."""
     return [
-        f"{name}, {engine}: not run: {found.reason}"
+        f"{name}, {engine}: {state_of(found)}"
         for name, engines in runs.items()
         for engine, found in engines.items()
         if not is_run(found)

@@ -1,19 +1,16 @@
 """Jülicher & Lipowsky (1993, 1996), Lipowsky (1992): a domain without curvature of its own buds to shorten its edge."""
 
-from comparisons.drawing import style
+import math
 
-style.apply()
+import numpy as np
+from scipy.optimize import brentq
+from scipy.special import j0, j1
 
-import math  # noqa: E402
+from comparisons.drawing.pyplot import plt
 
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-import numpy as np  # noqa: E402
-from scipy.optimize import brentq  # noqa: E402
-from scipy.special import j0, j1  # noqa: E402
-
-from .branches import followed  # noqa: E402
-from .histories import COLOURS  # noqa: E402
-from .item import Printed, Result, text  # noqa: E402
+from .branches import followed
+from .histories import COLOURS
+from .item import Printed, Result, text
 
 TITLE = "Budding by line tension (Jülicher & Lipowsky 1996)"
 SOURCE = (

@@ -4,14 +4,11 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from comparisons.drawing import style
+from comparisons.drawing.pyplot import plt
 
-style.apply()
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-
-from .item import PHASE_FIELD, Printed, Result, Wanted, is_run, not_run_remarks, text, value_at  # noqa: E402
-from .printed import MOBILITY_PER_PRINTED, QUICK_TIME, TIME, quick_sentence, settings  # noqa: E402
-from .table2 import PAPER, PAPER_AREA  # noqa: E402
+from .item import PHASE_FIELD, Printed, Result, Wanted, is_run, text, value_at
+from .printed import MOBILITY_PER_PRINTED, QUICK_TIME, TIME, quick_sentence, settings
+from .table2 import PAPER, PAPER_AREA
 
 TITLE = "Table 1's mobility: which reading of γ fits Table 2"
 
@@ -53,7 +50,7 @@ def result(runs, quick):
     rows = []
     for mobility in MOBILITIES:
         run = runs[name_of(mobility)].get(PHASE_FIELD)
-        known = run is not None and is_run(run)
+        known = is_run(run)
         row = {"mobility_nm2_per_pN_us": mobility, "time_us": end}
         rows.append(row | {"area_nm2": value_at(run, "membrane_area_nm2", end) if known else None})
     known = [(np.log10(row["mobility_nm2_per_pN_us"]), row["area_nm2"]) for row in rows if row["area_nm2"] is not None]
@@ -76,7 +73,6 @@ def result(runs, quick):
     remarks = [
         "The changes come from the areas between the runs, interpolated monotonically in log γ.",
         *quick_sentence(quick),
-        *not_run_remarks(runs),
     ]
     return Result(rows, {"mobility": (f"Area at {end:g} µs against γ", draw(rows))}, printed, remarks)
 

@@ -6,7 +6,7 @@ from comparisons.page import report
 from comparisons.page.numbers import escaped, figures, setting
 from comparisons.page.study_report import page
 
-from .item import is_run
+from .item import is_run, not_run_remarks, state_of
 
 COMMAND = "endoflow reproduce"
 SOURCE = "J. Lowengrub, J. Allard, S. Aland, J. Comput. Phys. (2016)"
@@ -14,9 +14,10 @@ SOURCE = "J. Lowengrub, J. Allard, S. Aland, J. Comput. Phys. (2016)"
 
 def item_html(item, title, source, result, runs, quick, directory):
     """The page's text; result: item.Result, its figures saved in directory (Path)."""
+    remarks = [*result.remarks, *not_run_remarks(runs)]
     sections = [
         ("The paper beside this", printed_table(result.printed)),
-        ("What differs, and why", "<ul>" + "".join(f"<li>{escaped(one)}</li>" for one in result.remarks) + "</ul>"),
+        ("What differs, and why", "<ul>" + "".join(f"<li>{escaped(one)}</li>" for one in remarks) + "</ul>"),
         ("Plots", "".join(report.plot(directory / f"{n}.svg", text) for n, (text, _) in result.figures.items())),
         ("Numbers", numbers_table(result.rows) + f'<p class="note">{escaped(item)}.csv holds them with 12 digits.</p>'),
         ("Runs", runs_table(runs)),
@@ -62,11 +63,11 @@ def runs_table(runs):
         for engine, found in engines.items():
             head = [escaped(name), escaped(style.ENGINE_NAMES[engine])]
             if not is_run(found):
-                rows.append(("", [*head, escaped(f"not run: {found.reason}"), "–", "–", "–", "–", "–"]))
+                rows.append(("", [*head, escaped(state_of(found)), "–", "–", "–", "–", "–"]))
                 continue
             record, (convention, resolved, alarmed) = found.record, [value for _, value in basis(found)]
             cells = [
-                escaped(record["exit_reason"]),
+                escaped(state_of(found)),
                 setting(float(found.history["time_us"][-1]), 5),
                 escaped(f"{resolved}; {convention}"),
                 escaped(alarmed),

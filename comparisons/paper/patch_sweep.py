@@ -7,7 +7,7 @@ from scipy.integrate import trapezoid
 
 from endoflow.curves import area_from_axis
 
-from .item import both_engines, end_of, is_run, value_at
+from .item import both_engines, end_of, is_run, state_of, value_at
 
 #: Patch radii (nm), 20 to 60 as in the paper; the phase field's with `--quick`.
 RADII = tuple(range(20, 61, 4)) + (38,)
@@ -78,15 +78,15 @@ def table(runs):
     rows = []
     for radius in sorted(RADII):
         for engine, run in runs[name_of(radius)].items():
-            row = {"patch_radius_nm": radius, "engine": engine, "state": "", "end_us": None, "budding_time_us": None}
+            row = {"patch_radius_nm": radius, "engine": engine, "state": state_of(run), "end_us": None, "budding_time_us": None}
             measured = ("neck_radius_nm", "bud_diameter_nm", "bud_height_nm", "roundness", "underside_rise_nm", "shape")
             row |= dict.fromkeys((*measured, "neck_radius_at_1_us_nm", "diameter_at_budding_nm"))
+            rows.append(row)
             if not is_run(run):
-                rows.append(row | {"state": f"not run: {run.reason}"})
                 continue
             end = end_of(run)
             shape = run.shape_at(min(STATIONARY, float(run.shape_times[-1])))
-            row |= {"state": run.record["exit_reason"], "end_us": end, "budding_time_us": run.event_time("budding")}
+            row |= {"end_us": end, "budding_time_us": run.event_time("budding")}
             for column in ("neck_radius_nm", "bud_diameter_nm", "bud_height_nm"):
                 row[column] = value_at(run, column, min(STATIONARY, end))
             row["neck_radius_at_1_us_nm"] = value_at(run, "neck_radius_nm", EARLY)
@@ -95,7 +95,6 @@ def table(runs):
                 row |= {"roundness": float(roundness(shape, neck)), "underside_rise_nm": underside(shape, neck)}
             if row["budding_time_us"] is not None:
                 row["diameter_at_budding_nm"] = value_at(run, "bud_diameter_nm", row["budding_time_us"])
-            rows.append(row)
     return rows
 
 

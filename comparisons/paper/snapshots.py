@@ -3,7 +3,7 @@
 from comparisons.drawing import style
 from comparisons.drawing.pictures import Panel, fluid_arrows, gallery, membrane_arrows
 
-from .item import BOUNDARY_INTEGRAL, NECK_CLOSED, end_of, is_run, last_time
+from .item import BOUNDARY_INTEGRAL, NECK_CLOSED, end_of, is_run, last_time, state_of
 
 #: Room (nm) around the membranes in pictures that show the fluid.
 FLUID_MARGIN = 30.0
@@ -12,7 +12,7 @@ FLUID_MARGIN = 30.0
 def panels_at(found, times, draw, sharp=None):
     """Panels of a run at some times (µs); draw(run, time) makes one. sharp: a run whose membrane is drawn over it, or None."""
     if not is_run(found):
-        return [Panel(f"t = {time:.4g} µs", f"not run: {found.reason}") for time in times]
+        return [Panel(f"t = {time:.4g} µs", state_of(found)) for time in times]
     reached = last_time(found) * (1 + 1e-12)
     panels = [draw(found, time) if time <= reached else after_the_end(found, time) for time in times]
     return [with_line(panel, sharp, time) for panel, time in zip(panels, times)]
@@ -20,7 +20,7 @@ def panels_at(found, times, draw, sharp=None):
 
 def with_line(panel, sharp, time):
     """The panel with another run's membrane at a time (µs) as a line, if there is such a run and it went on so long."""
-    if sharp is None or not is_run(sharp) or time > last_time(sharp) * (1 + 1e-12):
+    if not is_run(sharp) or time > last_time(sharp) * (1 + 1e-12):
         return panel
     return panel._replace(other=sharp.shape_at(time))
 

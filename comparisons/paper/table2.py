@@ -3,13 +3,10 @@
 import numpy as np
 
 from comparisons.drawing import style
+from comparisons.drawing.pyplot import plt
 
-style.apply()
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-
-from .item import PHASE_FIELD, Printed, Result, Wanted, is_run, not_run_remarks, text, value_at  # noqa: E402
-from .printed import QUICK_TIME, SHARP_AREA, TIME, quick_sentence, settings  # noqa: E402
+from .item import PHASE_FIELD, Printed, Result, Wanted, is_run, text, value_at
+from .printed import QUICK_TIME, SHARP_AREA, TIME, quick_sentence, settings
 
 TITLE = "Table 2: sensitivity of the membrane area"
 
@@ -52,7 +49,7 @@ def areas(runs, quick):
     for symbol, (_, entries) in PAPER.items():
         for value, _ in entries:
             run = runs[name_of(symbol, value)].get(PHASE_FIELD)
-            known = run is not None and is_run(run)
+            known = is_run(run)
             found[symbol, value] = value_at(run, "membrane_area_nm2", end) if known else None
     return found
 
@@ -117,7 +114,6 @@ def result(runs, quick):
         f"ε = 0: to the sharp membrane's {SHARP_AREA:.0f}, not away from it. A caveat: the print gives no signs, calls the area an average "
         "of all runs, and varies h and, having one ε, the width of the coat's edge together with the layer.",
         *quick_sentence(quick),
-        *not_run_remarks(runs),
     ]
     return Result(rows, {"table2": (f"Relative change of the area at {end:g} µs", draw(rows))}, printed, remarks)
 

@@ -4,16 +4,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from comparisons.drawing import style
+from comparisons.drawing.pyplot import plt
 
-style.apply()
-
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-
-from .histories import COLOURS  # noqa: E402
-from .item import BOUNDARY_INTEGRAL, Printed, Result, Wanted, is_run, not_run_remarks, text, value_at  # noqa: E402
-from .printed import TIME  # noqa: E402
-from .table2 import PAPER_AREA  # noqa: E402
+from .histories import COLOURS
+from .item import BOUNDARY_INTEGRAL, Printed, Result, Wanted, end_of, is_run, state_of, text, value_at
+from .printed import TIME
+from .table2 import PAPER_AREA
 
 TITLE = "Time scale: readings of the print in the sharp model"
 
@@ -91,9 +87,9 @@ def rows_of(runs):
         run = next(iter(runs[reading.name].values()), None)
         row = {"reading": reading.name, "meaning": reading.what}
         columns = ("area_at_0.5_us_nm2", "time_of_paper_area_us", "slowdown", "budding_time_us", "end_us", "state")
-        row |= dict.fromkeys(columns)
-        if run is None or not is_run(run):
-            rows.append(row | {"state": "not asked for" if run is None else f"not run: {run.reason}"})
+        row |= dict.fromkeys(columns) | {"state": state_of(run)}
+        rows.append(row)
+        if not is_run(run):
             continue
         reached = time_of_area(run, PAPER_AREA)
         row |= {
@@ -101,10 +97,8 @@ def rows_of(runs):
             "time_of_paper_area_us": reached,
             "slowdown": None if not reached else TIME / reached,
             "budding_time_us": run.event_time("budding"),
-            "end_us": float(run.history["time_us"][-1]),
-            "state": run.record["exit_reason"],
+            "end_us": end_of(run),
         }
-        rows.append(row)
     return rows
 
 
@@ -124,7 +118,6 @@ def result(runs, quick):
         "scales all times alike; “slowdown” is the factor by which the paper is slower than the reading at its area of Table 2.",
         "Two numbers of the print tie the clock down: the area at 0.5 µs, and γ = 4.2 nm³/µs, which “approximately synchronizes” "
         "the evolutions without and with flow. Its figures have both at 2.90, 7.46, 14.02 and 16.98 µs.",
-        *not_run_remarks(runs),
     ]
     return Result(rows, {"timescale": ("Membrane area by reading", draw(runs))}, printed, remarks)
 
@@ -140,7 +133,7 @@ def draw(runs):
     figure, axes = plt.subplots(figsize=(7.6, 4.4), layout="constrained")
     for place, reading in enumerate(r for r in READINGS if r.case == "standard"):
         run = next(iter(runs[reading.name].values()), None)
-        if run is None or not is_run(run) or run.history["time_us"][-1] < SHOWN[0]:
+        if not is_run(run) or run.history["time_us"][-1] < SHOWN[0]:
             continue
         look = {"color": COLOURS[place % len(COLOURS)], "linestyle": ("-", "--", ":")[place // len(COLOURS)]}
         axes.plot(run.history["time_us"], 1e-3 * run.history[AREA], label=reading.name, **look)

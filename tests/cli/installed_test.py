@@ -11,6 +11,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+
+from engines import COARSE, texts  # noqa: E402
+
 INSTALL = None
 
 
@@ -37,7 +41,7 @@ class Installed(unittest.TestCase):
     def test_engine_and_scripts(self):
         case = self.root / "empty.toml"
         case.write_text("")
-        settings = ["--set", "boundary_integral.elements=36", "--until", "0.0002"]
+        settings = ["--set", *texts(COARSE["boundary-integral"]), "--until", "0.0002"]
         self.endoflow("run", "boundary-integral", case, "-o", self.root / "run", *settings)
         self.endoflow("revolve", self.root / "run")
         self.assertTrue((self.root / "run" / "membrane.pvd").is_file())

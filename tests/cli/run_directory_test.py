@@ -18,12 +18,15 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+
+from engines import COARSE, texts  # noqa: E402
+
 PROGRAM = None
 
 SMALL = {
     "boundary-integral": ("boundary_integral.elements=24", "boundary_integral.threads=1"),
-    "phase-field": ("domain.radius=40", "domain.height=40", "domain.membrane_height=20", "molecules.patch_radius=20",
-                    "phase_field.epsilon=4", "phase_field.cell_size=4", "molecules.interface_width=4"),
+    "phase-field": texts(COARSE["phase-field"]),
 }
 
 

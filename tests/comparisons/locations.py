@@ -8,4 +8,4 @@ ROOT = Path(__file__).resolve().parents[2]
 #: What is started as `endoflow NAME …`.
 COMPARISONS = str(ROOT / "comparisons")
 
-sys.path[:0] = [str(Path(__file__).resolve().parent), str(ROOT), str(ROOT / "python")]
+sys.path[:0] = [str(Path(__file__).resolve().parent), str(ROOT / "tests"), str(ROOT), str(ROOT / "python")]

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import locations
 from command import unnamed_basis
+from engines import COARSE, texts
 from studies import StudyTest
 
 PROGRAM = os.environ.get("ENDOFLOW_PROGRAM")
@@ -62,12 +63,12 @@ class Refused(StudyTest):
 
 @unittest.skipUnless(PROGRAM and Path(PROGRAM).exists(), "ENDOFLOW_PROGRAM names no program")
 class WithTheEngine(StudyTest):
-    SETTINGS = {"boundary_integral.elements": 36, "output.field_interval": 0}
+    SETTINGS = {**COARSE["boundary-integral"], "output.field_interval": 0}
 
     def setUp(self):
         super().setUp()
         self.program = Path(PROGRAM)
-        settings = [part for key, value in self.SETTINGS.items() for part in ("--set", f"{key}={value}")]
+        settings = [part for text in texts(self.SETTINGS) for part in ("--set", text)]
         true = ["--set", "fluid.viscosity_intracellular=0.0125", "--until", "0.002", "-o", "truth"]
         subprocess.run(
             [PROGRAM, "run", "boundary-integral", "case.toml", *settings, *true],

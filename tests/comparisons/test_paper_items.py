@@ -8,7 +8,7 @@ import numpy as np
 import endoflow
 from comparisons.commands.reproduce import LONGEST_NAME, short_enough
 from comparisons.paper import attribution, mobility, printed, table2, timescale
-from comparisons.paper.item import NotRun
+from comparisons.paper.item import NotRun, filled, state_of
 from comparisons.studies.members import flat_parameters
 
 
@@ -16,6 +16,16 @@ def run_with(area, time=(0.0, 0.5)):
     """A run whose history has only times and areas."""
     history = {"time_us": np.array(time), "membrane_area_nm2": np.array(area, dtype=float)}
     return endoflow.Run(Path("."), {"events": {}, "exit_reason": "done"}, {}, history, [])
+
+
+class Rows(unittest.TestCase):
+    def test_state(self):
+        self.assertEqual(state_of(run_with([1, 1])), "done")
+        self.assertEqual(state_of(NotRun("no time")), "not run: no time")
+        self.assertEqual(state_of(None), "not asked for")
+
+    def test_columns_are_those_of_the_longest_row(self):
+        self.assertEqual(filled([{"a": 1}, {"a": 2, "b": 3}]), [{"a": 1, "b": None}, {"a": 2, "b": 3}])
 
 
 class NamesOfRuns(unittest.TestCase):

@@ -26,6 +26,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+
+from engines import COARSE  # noqa: E402
+
 TOLERANCE = {"boundary-integral": 1e-10, "phase-field": 1e-8}
 
 # Small enough that a run takes seconds; a checkpoint after every step, a shape about as often.
@@ -35,13 +39,7 @@ SETTINGS = {
         "boundary_integral.threads": 1,
         "boundary_integral.restart_interval": 8,  # so that there are many points to go on from
     },
-    "phase-field": {
-        "domain.radius": 40,
-        "domain.height": 40,
-        "domain.membrane_height": 20,
-        "molecules.patch_radius": 20,
-        "phase_field.epsilon": 4,
-        "phase_field.cell_size": 4,
+    "phase-field": COARSE["phase-field"] | {
         "molecules.interface_width": 5.5,  # wide enough for the coat's edge to need no smaller cells
     },
 }

@@ -74,6 +74,31 @@ double one(const InitialPoint& /*at*/, const MembraneEnergy& /*energy*/) {
     return 1;
 }
 
+double speed_size(const Scales& by) {
+    return by.speed;
+}
+double tension_size(const Scales& by) {
+    return by.stiffness / (by.length * by.length);
+}
+double pressure_size(const Scales& by) {
+    return tension_size(by) / by.length;
+}
+double length_size(const Scales& by) {
+    return by.length;
+}
+double force_size(const Scales& by) {
+    return by.stiffness / (by.length * by.thickness * by.thickness);  // of what bends over ε
+}
+double moment_size(const Scales& by) {
+    return by.stiffness / by.length;
+}
+double unit_size(const Scales& /*by*/) {
+    return 1;
+}
+double potential_size(const Scales& by) {
+    return 1 / by.thickness;
+}
+
 unsigned int of_velocity(const Numerics& p) {
     return degree_of(p.velocity_degree);
 }
@@ -95,17 +120,17 @@ unsigned int of_surface(const Numerics& p) {
 const std::array<Unknown, n_fields>& unknowns() {
     // λ = 0 at the rim is natural.
     static const std::array<Unknown, n_fields> table{{
-        {velocity_r, "velocity", of_velocity, no_radial_velocity, nullptr, without_flow},
-        {velocity_z, "velocity", of_velocity, pinned, nullptr, without_flow},
-        {pressure, "pressure_outside_layer", of_pressure, nullptr, nullptr, without_flow},
-        {pressure_layer, "layer_pressure", of_tension, nullptr, nullptr, without_flow},
-        {tension, "lambda", of_tension, nullptr, nullptr, without_tension},
-        {distance, "distance", of_shape, flat_at_rim, initial_distance, nullptr},
-        {normal_force, "normal_force", of_shape, no_force_at_rim, nullptr, nullptr},
-        {moment, "moment", of_shape, nullptr, initial_moment, nullptr},
-        {molecule_density, "c", of_surface, nullptr, initial_molecules, nullptr},
-        {molecule_potential, "chemical_potential", of_surface, nullptr, nullptr, nullptr},
-        {membrane_stretch, "stretching", of_surface, unstretched_at_side, one, without_flow},
+        {velocity_r, "velocity", of_velocity, speed_size, no_radial_velocity, nullptr, without_flow},
+        {velocity_z, "velocity", of_velocity, speed_size, pinned, nullptr, without_flow},
+        {pressure, "pressure_outside_layer", of_pressure, pressure_size, nullptr, nullptr, without_flow},
+        {pressure_layer, "layer_pressure", of_tension, tension_size, nullptr, nullptr, without_flow},
+        {tension, "lambda", of_tension, tension_size, nullptr, nullptr, without_tension},
+        {distance, "distance", of_shape, length_size, flat_at_rim, initial_distance, nullptr},
+        {normal_force, "normal_force", of_shape, force_size, no_force_at_rim, nullptr, nullptr},
+        {moment, "moment", of_shape, moment_size, nullptr, initial_moment, nullptr},
+        {molecule_density, "c", of_surface, unit_size, nullptr, initial_molecules, nullptr},
+        {molecule_potential, "chemical_potential", of_surface, potential_size, nullptr, nullptr, nullptr},
+        {membrane_stretch, "stretching", of_surface, unit_size, unstretched_at_side, one, without_flow},
     }};
     return table;
 }
@@ -119,20 +144,6 @@ std::vector<unsigned int> field_degrees(const PhaseFieldParameters& p) {
 Scales scales(const Parameters& p) {
     const double length = size_of_membrane(p.domain);
     return {length, p.phase_field.epsilon, length / natural_time(p), largest_stiffness(p.membrane)};
-}
-
-std::array<double, n_fields> field_sizes(const Scales& by) {
-    const double R = by.length, tension_size = by.stiffness / (R * R);
-    std::array<double, n_fields> out{};
-    out[velocity_r] = out[velocity_z] = by.speed;
-    out[pressure] = tension_size / R;
-    out[pressure_layer] = out[tension] = tension_size;
-    out[distance] = R;
-    out[normal_force] = by.stiffness / (R * by.thickness * by.thickness);  // of what bends over ε
-    out[moment] = by.stiffness / R;
-    out[molecule_density] = out[membrane_stretch] = 1;
-    out[molecule_potential] = 1 / by.thickness;
-    return out;
 }
 
 Vector initial_fields(const Space& space, const Parameters& p, const MembraneEnergy& energy) {

@@ -25,8 +25,8 @@ enum Field : unsigned int {
     molecule_density,    // c
     molecule_potential,  // μ
     membrane_stretch,    // s
+    n_fields,            // how many there are
 };
-inline constexpr unsigned int n_fields = 11;
 
 /// One field and its derivatives at one point; also one row of a weak form: the factors of the test function and of its
 /// derivatives.
@@ -37,18 +37,6 @@ struct AtPoint {
 template <class Number>
 using Fields = std::array<AtPoint<Number>, n_fields>;
 
-/// All that is said of an unknown besides its equation. Absent functions: held nowhere, zero at first, always solved
-/// for.
-struct Unknown {
-    Field field;
-    const char* output_name;  // "velocity" twice: a vector's components
-    unsigned int (*degree)(const PhaseFieldParameters&);
-    /// The value it is held at on a boundary, `above` the membrane's flat height [nm], if it is.
-    std::optional<double> (*held)(dealii::types::boundary_id, double above, const Parameters&) = nullptr;
-    double (*initial)(const InitialPoint&, const MembraneEnergy&) = nullptr;
-    bool (*switched_off)(const Parameters&) = nullptr;
-};
-
 /// By what the sizes of the fields are measured.
 struct Scales {
     double length;     // R, of the problem [nm]
@@ -58,10 +46,20 @@ struct Scales {
 };
 Scales scales(const Parameters& parameters);
 
-/// In the order of Field, how large the fields are in a membrane that is bent over the size of the problem.
-std::array<double, n_fields> field_sizes(const Scales& scales);
+/// All that is said of an unknown besides its equation. Absent functions: held nowhere, zero at first, always solved
+/// for.
+struct Unknown {
+    Field field;
+    const char* output_name;  // "velocity" twice: a vector's components
+    unsigned int (*degree)(const PhaseFieldParameters&);
+    double (*size)(const Scales&);  // in a membrane that is bent over the size of the problem
+    /// The value it is held at on a boundary, `above` the membrane's flat height [nm], if it is.
+    std::optional<double> (*held)(dealii::types::boundary_id, double above, const Parameters&) = nullptr;
+    double (*initial)(const InitialPoint&, const MembraneEnergy&) = nullptr;
+    bool (*switched_off)(const Parameters&) = nullptr;
+};
 
-/// In the order of Field; the space, its constraints, the start and the output read this table.
+/// In the order of Field; the space, its constraints, the start, the solver and the output read this table.
 const std::array<Unknown, n_fields>& unknowns();
 
 /// Polynomial degrees in the order of Field.

@@ -31,7 +31,8 @@ constexpr std::size_t vectors_of_guess = 2;  // of an Origin, before the solutio
 
 StepSolver::StepSolver(const Parameters& parameters, const LayerEnergy& energy, MPI_Comm communicator, double wanted)
     : energy_(energy), pattern_(parameters, energy), system_(communicator, "coupled"), wanted_(wanted) {
-    for (const double size : field_sizes(scales(parameters))) least_.push_back(round_off * size);
+    const Scales by = scales(parameters);
+    for (const auto& unknown : unknowns()) least_.push_back(round_off * unknown.size(by));
 }
 
 void StepSolver::reinit(const Space& space) {
