@@ -38,6 +38,13 @@ std::pair<std::string, std::string> words_and_unit(std::string column) {
     return {column, unit == units.end() ? "" : unit->second};
 }
 
+/// Five significant digits; counts, and what has more digits before the point, as whole numbers.
+std::string rounded(double value) {
+    constexpr double LEAST_WITH_MORE_DIGITS = 1e5, MOST = 1e15;
+    const bool whole = value == std::floor(value) || std::abs(value) >= LEAST_WITH_MORE_DIGITS;
+    return whole && std::abs(value) < MOST ? fmt::format("{:.0f}", value) : fmt::format("{:.5g}", value);
+}
+
 /// The last complete row of history.csv as "name  value unit" lines; stationary shapes have no time.
 std::string last_row(const RunDirectory& directory, bool has_time) {
     const History history = read_history(directory.history());
@@ -48,7 +55,7 @@ std::string last_row(const RunDirectory& directory, bool has_time) {
         if (!has_time && (column == "time_us" || column == "step_us")) continue;
         const auto [words, unit] = words_and_unit(column);
         const std::optional<double> value = history.rows.back()[i];
-        text += fmt::format("  {:<30} {}{}{}\n", words, value ? fmt::format("{:.5g}", *value) : "-",
+        text += fmt::format("  {:<30} {}{}{}\n", words, value ? rounded(*value) : "-",
                             value && !unit.empty() ? " " : "", value ? unit : "");
     }
     return text;

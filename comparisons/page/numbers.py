@@ -31,8 +31,25 @@ def figures(value, digits=4):
     """A measured number with exactly that many significant digits, a dash for None."""
     if value is None:
         return "–"
-    text = f"{value:,.0f}".replace(",", "\u2009") if abs(value) >= 10**digits else f"{value:#.{digits}g}".rstrip(".")
+    if value == 0:
+        return "0"
+    text = grouped(value) if abs(value) >= 10**digits else f"{value:#.{digits}g}".rstrip(".")
     return with_powers(text).replace("-", "−")
+
+
+def grouped(value):
+    """A whole number, from five digits on in groups of three."""
+    return f"{value:.0f}" if abs(value) < 1e4 else f"{value:,.0f}".replace(",", "\u2009")
+
+
+def count_or_figures(value, digits=4):
+    """A number without unit: as it is where it counts something, else with that many significant digits."""
+    return grouped(value) if float(value).is_integer() else figures(value, digits)
+
+
+def prose(text):
+    """A sentence with `names` in it, as HTML."""
+    return re.sub("`([^`]+)`", lambda found: code(html.unescape(found[1])), escaped(text))
 
 
 def percent(value):

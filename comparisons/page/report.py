@@ -16,6 +16,9 @@ SCRIPTS = ("theme.js", "data.js", "colours.js", "membrane_view.js", "charts.js",
 #: Entries of run.json that are no part of the provenance: told elsewhere on the page, or the same for every run (docs/outputs.md).
 TOLD = ("parameters", "alarms", "columns")
 
+#: What the rest of run.json is.
+PROVENANCE = "Programs, machines, times, and what was noted on the way"
+
 #: Titles of the compared quantities.
 TITLES = {name: f"{plot.title} ({plot.unit})" for name, plot in style.HISTORY_PLOTS.items()}
 
@@ -51,12 +54,15 @@ def report_html(a, b, metrics, plots, directory):
         cards=card_section(cards(metrics)),
         legend=legend(labels),
         metrics_table=metrics_table(metrics, labels),
-        times_table=times_table(metrics["times"]),
+        times=folded("All output times", times_table(metrics["times"])),
         plots="\n".join(plot(directory / f"{name}.svg", title) for name, title in plots.items()),
         basis_table=basis_table(a, b, labels),
-        parameters_table=table(["", *map(escaped, labels)], parameters, "text"),
-        parameters_open=" open" if any(kind == "differs" for kind, _ in parameters) else "",
-        provenance_table=provenance_table(a, b, labels),
+        parameters=folded(
+            "All parameters of both runs",
+            table(["", *map(escaped, labels)], parameters, "text"),
+            unfolded=any(kind == "differs" for kind, _ in parameters),
+        ),
+        provenance=folded(PROVENANCE, provenance_table(a, b, labels)),
     )
     embedded = data.replace("</", "<\\/")
     return page(
@@ -179,8 +185,9 @@ def legend(labels):
 
 
 def table(heads, rows, kind=""):
-    """A table; rows are (class, cells) with ready HTML cells, the first cell being the row's heading."""
+    """A table, without a head where no column has a heading; rows are (class, cells) with ready HTML cells, the first cell being the row's heading."""
     head = "".join(f'<th scope="col">{text}</th>' for text in heads)
+    head = f"<thead><tr>{head}</tr></thead>" if any(heads) else ""
     body = "".join(
         f'<tr class="{row_class}"><th scope="row">{cells[0]}</th>'
         + "".join(f"<td>{cell}</td>" for cell in cells[1:])
@@ -189,8 +196,13 @@ def table(heads, rows, kind=""):
     )
     return (
         f'<div class="table {kind}" tabindex="0" role="region" aria-label="table">'
-        f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>"
+        f"<table>{head}<tbody>{body}</tbody></table></div>"
     )
+
+
+def folded(summary, body, unfolded=False):
+    """Ready HTML that a click on its summary shows."""
+    return f"<details{' open' if unfolded else ''}><summary>{escaped(summary)}</summary>{body}</details>"
 
 
 def metrics_table(metrics, labels):

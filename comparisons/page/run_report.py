@@ -5,7 +5,7 @@ from comparisons.measures.basis import basis
 from comparisons.measures.certificate import in_words
 from comparisons.measures.metrics import flat_parameters
 from comparisons.page import report
-from comparisons.page.numbers import code, escaped, figures, flattened, quantity, setting
+from comparisons.page.numbers import code, count_or_figures, escaped, figures, flattened, prose, quantity, setting
 from comparisons.page.study_report import page, parameters_table
 from endoflow.history import unit_of
 
@@ -20,8 +20,8 @@ def run_html(run, drawn, directory):
         ("What the numbers rest on", basics),
         ("Plots", plots),
         ("Last row of history.csv", last_row(run)),
-        ("Parameters", parameters_table(flat_parameters(run.parameters))),
-        ("Provenance", provenance(run)),
+        ("Parameters", report.folded("All parameters of the run", parameters_table(flat_parameters(run.parameters)))),
+        ("Provenance", report.folded(report.PROVENANCE, provenance(run))),
     ]
     name = run.parameters.get("case", {}).get("name", "run")
     found = [f"accuracy alarm: {alarm}" for alarm in run.alarms]
@@ -72,8 +72,8 @@ def last_row(run):
     rows, meanings = [], run.record.get("columns", {})
     for column, values in run.history.items():
         value, unit = float(values[-1]), unit_of(column)
-        shown = "–" if value != value else figures(value, 5)
-        rows.append(("", [code(column), shown, escaped("" if unit == "1" else unit), escaped(meanings.get(column, ""))]))
+        shown = "–" if value != value else (count_or_figures if unit == "1" else figures)(value, 5)
+        rows.append(("", [code(column), shown, escaped("" if unit == "1" else unit), prose(meanings.get(column, ""))]))
     return report.table(["", "value", "unit", "what it is"], rows, "words-last")
 
 

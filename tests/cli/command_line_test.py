@@ -243,6 +243,7 @@ class CommandLine(unittest.TestCase):
         self.assertRegex(summary.stdout, r"\n  curvature convention as-printed; 54 elements, time tolerance 0.0001; "
                          r"relative accuracy 0.001 asked for, 2.0e-04 reached\n")
         self.assertRegex(summary.stdout, r"\n  neck radius +-\n")
+        self.assertNotRegex(summary.stdout, r"e\+\d")
 
     def test_summary_of_stationary_shapes(self):
         """They have no time: a branch counts its shapes."""

@@ -79,6 +79,7 @@ class Output(CompareTest):
             self.assertRegex(page, rf"<th scope=\"row\">alarms</th><td>{words}")
             self.assertIn("<td>as-printed</td>", page)
             self.assertIn("layer of ε = 1.2 nm", page)
+            self.assertRegex(page, r"membrane_<wbr>area_<wbr>nm2</code></th><td>[\d\u2009]+</td><td>nm²</td><td>what the family has")
             self.assertNotRegex(page, r"(?:src|href)=\"(?!data:)")
             self.assertEqual(unnamed_basis(page), [])
 

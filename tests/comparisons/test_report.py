@@ -10,7 +10,7 @@ from pathlib import Path
 import locations
 import synthetic
 from browser import Browser, chromium
-from comparisons.page.numbers import code, figures, flattened, percent, setting
+from comparisons.page.numbers import code, count_or_figures, figures, flattened, percent, prose, setting
 
 READY = "document.documentElement?.dataset.ready === 'true'"
 PICTURE = "document.getElementById('membranes').toDataURL()"
@@ -229,6 +229,12 @@ class Numbers(unittest.TestCase):
     def test_measured_numbers(self):
         for value, text in ((0.0002395, "0.0002395"), (-3.2e-7, "−3.200·10⁻⁷"), (24996.05, "24\u2009996"), (None, "–")):
             self.assertEqual(figures(value), text)
+
+    def test_counts_are_whole(self):
+        self.assertEqual([count_or_figures(value, 5) for value in (1803.0, 160388.0, 0.0, 0.00031288)], ["1803", "160\u2009388", "0", "0.00031288"])
+
+    def test_names_in_sentences(self):
+        self.assertEqual(prose("as `a_b` < 1"), "as <code>a_<wbr>b</code> &lt; 1")
 
     def test_relative_differences(self):
         for value, text in ((0.00762, "+0.762 %"), (-1e-6, "< 0.001 %"), (12.0, "+1.20·10³ %"), (-0.5, "−50.0 %"), (1.0, "+100 %")):
