@@ -40,9 +40,9 @@ std::pair<std::string, std::string> words_and_unit(std::string column) {
 
 /// Five significant digits; counts, and what has more digits before the point, as whole numbers.
 std::string rounded(double value) {
-    constexpr double LEAST_WITH_MORE_DIGITS = 1e5, MOST = 1e15;
-    const bool whole = value == std::floor(value) || std::abs(value) >= LEAST_WITH_MORE_DIGITS;
-    return whole && std::abs(value) < MOST ? fmt::format("{:.0f}", value) : fmt::format("{:.5g}", value);
+    constexpr double least_with_more_digits = 1e5, most = 1e15;
+    const bool whole = value == std::floor(value) || std::abs(value) >= least_with_more_digits;
+    return whole && std::abs(value) < most ? fmt::format("{:.0f}", value) : fmt::format("{:.5g}", value);
 }
 
 /// The last complete row of history.csv as "name  value unit" lines; stationary shapes have no time.

@@ -56,10 +56,12 @@ double AccuracyWatch::measured(const AccuracyBound& bound, const HistoryRow& row
             return first == 0 ? 0 : std::abs(value / first - 1);
         }
         case AccuracyMeasure::accumulated: {
-            if (!memory.contains("energy_pN_nm")) memory["energy_pN_nm"] = row.membrane.bending_energy;
-            const double sum = memory.value("sum", 0.0) + value * row.step_us;
+            const std::string edge = "line_energy_pN_nm";
+            const double line = has_column(edge, columns_) ? value_of(edge, row, columns_).value_or(0) : 0,
+                         energy = std::max(memory.value("energy_pN_nm", 0.0), row.membrane.bending_energy + line),
+                         sum = memory.value("sum", 0.0) + value * row.step_us;
+            memory["energy_pN_nm"] = energy;
             memory["sum"] = sum;
-            const double energy = memory["energy_pN_nm"].get<double>();
             return energy == 0 ? 0 : std::abs(sum / energy);
         }
     }

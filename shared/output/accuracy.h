@@ -16,7 +16,7 @@ namespace endoflow {
 enum class AccuracyMeasure {
     value,       ///< |column|
     drift,       ///< |column − its first value| / |its first value|
-    accumulated  ///< |∫ column dt| / the bending energy of the first row
+    accumulated  ///< |∫ column dt| / the membrane's largest energy so far, bending and edge
 };
 
 /// A quantity that is small in an accurate run, and how large it may get.

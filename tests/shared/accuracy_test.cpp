@@ -107,6 +107,27 @@ TEST_CASE("drifts count from the first row, residuals of the energy law add up o
     CHECK(law[0].value == Approx(12e-3));
 }
 
+TEST_CASE("the energy law is seen against the largest energy, that of the edge included") {
+    const AccuracyWatch watch(
+        Parameters{}, {.name = "phase-field",
+                       .libraries = {},
+                       .history_columns = {{"energy_law_residual_pN_nm_per_us", ""}, {"line_energy_pN_nm", ""}}});
+    RunRecord record;
+    HistoryRow row = row_at(0, {0, 4000});  // a domain that costs its edge alone
+    row.membrane.bending_energy = 1;
+    CHECK(watch.look_at(row, record).empty());
+    row.time_us = row.step_us = 0.5;
+    row.membrane.bending_energy = 1999;
+    row.extra = {200, 3001};
+    const auto law = watch.look_at(row, record);
+    REQUIRE(law.size() == 1);
+    CHECK(law[0].value == Approx(0.02));
+    row.membrane.bending_energy = 0;
+    row.extra = {0, 1000};
+    CHECK(watch.look_at(row, record).empty());
+    CHECK(record["accuracy"]["energy-law"]["largest"].get<double>() == Approx(0.02));
+}
+
 TEST_CASE("a membrane that may stretch raises no alarm of strain") {
     HistoryRow row = balanced_row(0.1);
     row.area_strain_max = 0.5;
