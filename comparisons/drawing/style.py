@@ -2,7 +2,6 @@
 
 from collections import namedtuple
 
-import matplotlib
 from matplotlib.colors import LinearSegmentedColormap
 
 #: Colour of each engine (Okabe and Ito, safe for colour-blind readers) on light and on dark ground.
@@ -67,12 +66,6 @@ RC = {
     "svg.hashsalt": "endoflow",
     "svg.fonttype": "path",
 }
-
-
-def apply():
-    """Draw off screen, in the project's style."""
-    matplotlib.use("Agg")
-    matplotlib.rcParams.update(RC)
 
 
 def labels(a, b):

@@ -78,7 +78,7 @@ def rows_of(runs, end):
     rows, before = [], None
     for rung in (*RUNGS, PRODUCTION, LIMIT):
         found = next(iter(runs[rung.name].values()), None)
-        area = value_at(found, AREA, end) if is_run(found) else None
+        area = value_at(found, AREA, end)
         row = {"rung": rung.name, "change": rung.what, "time_us": end, "area_nm2": area}
         row["change_nm2"] = None if None in (area, before) else area - before
         row["state"] = ("ended before: " if area is None and is_run(found) else "") + state_of(found)

@@ -4,7 +4,7 @@ from comparisons.drawing import style
 from comparisons.drawing.pictures import Panel, gallery
 
 from . import patch_sweep
-from .item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, is_run, last_time, quick_remark
+from .item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, is_run, last_time, quick_remark, state_of
 from .patch_sweep import STATIONARY, name_of
 from .snapshots import ended_because, sharp_of, with_line
 

@@ -1,7 +1,7 @@
 """What inertia does: (32) with and without its first term, to 0.5 µs."""
 
 from .histories import history_figure
-from .item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, Wanted, is_run, text, value_at
+from .item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, Wanted, text, value_at
 from .printed import QUICK_TIME, TIME
 
 TITLE = "Inertia: Navier–Stokes and Stokes to 0.5 µs"
@@ -29,7 +29,7 @@ def rows_of(runs, end):
         for engine, run in engines.items():
             for time in (t for t in TIMES if t <= end):
                 row = {"fluid": name, "engine": engine, "time_us": time}
-                rows.append(row | {c: value_at(run, c, time) if is_run(run) else None for c in COLUMNS})
+                rows.append(row | {c: value_at(run, c, time) for c in COLUMNS})
     return rows
 
 

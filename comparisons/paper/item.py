@@ -86,7 +86,9 @@ def end_of(run):
 
 
 def value_at(run, column, time):
-    """A history column at a time (µs); None where it does not exist or the run ended before."""
+    """A history column at a time (µs); None where it does not exist, the run ended before, or there is none to look at."""
+    if not is_run(run):
+        return None
     end = end_of(run)
     value = float(run.history_at(column, min(time, end))) if time <= end * (1 + 1e-9) else math.nan
     return value if math.isfinite(value) else None

@@ -6,7 +6,7 @@ from scipy.interpolate import PchipInterpolator
 from comparisons.drawing import style
 from comparisons.drawing.pyplot import plt
 
-from .item import PHASE_FIELD, Printed, Result, Wanted, is_run, text, value_at
+from .item import PHASE_FIELD, Printed, Result, Wanted, text, value_at
 from .printed import MOBILITY_PER_PRINTED, QUICK_TIME, TIME, quick_sentence, settings
 from .table2 import PAPER, PAPER_AREA
 
@@ -50,9 +50,8 @@ def result(runs, quick):
     rows = []
     for mobility in MOBILITIES:
         run = runs[name_of(mobility)].get(PHASE_FIELD)
-        known = is_run(run)
-        row = {"mobility_nm2_per_pN_us": mobility, "time_us": end}
-        rows.append(row | {"area_nm2": value_at(run, "membrane_area_nm2", end) if known else None})
+        area = value_at(run, "membrane_area_nm2", end)
+        rows.append({"mobility_nm2_per_pN_us": mobility, "time_us": end, "area_nm2": area})
     known = [(np.log10(row["mobility_nm2_per_pN_us"]), row["area_nm2"]) for row in rows if row["area_nm2"] is not None]
     area_of = PchipInterpolator(*zip(*known), extrapolate=False) if len(known) > 1 else lambda _: np.nan
     for row in rows:

@@ -7,8 +7,8 @@ import locations  # noqa: F401
 import numpy as np
 import endoflow
 from comparisons.commands.reproduce import LONGEST_NAME, short_enough
-from comparisons.paper import attribution, mobility, printed, table2, timescale
-from comparisons.paper.item import NotRun, filled, state_of
+from comparisons.paper import attribution, fig5, mobility, printed, table2, timescale
+from comparisons.paper.item import NotRun, filled, state_of, value_at
 from comparisons.studies.members import flat_parameters
 
 
@@ -23,6 +23,11 @@ class Rows(unittest.TestCase):
         self.assertEqual(state_of(run_with([1, 1])), "done")
         self.assertEqual(state_of(NotRun("no time")), "not run: no time")
         self.assertEqual(state_of(None), "not asked for")
+
+    def test_what_is_not_run_has_no_value_and_says_so_in_its_panel(self):
+        for missing in (None, NotRun("no time")):
+            self.assertIsNone(value_at(missing, "membrane_area_nm2", 0.5))
+        self.assertIn("not run: no time", fig5.panel(28, NotRun("no time")))
 
     def test_columns_are_those_of_the_longest_row(self):
         self.assertEqual(filled([{"a": 1}, {"a": 2, "b": 3}]), [{"a": 1, "b": None}, {"a": 2, "b": 3}])
