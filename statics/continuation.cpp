@@ -144,16 +144,13 @@ Branch follow_branch(const BoundaryValueProblem& problem, const GaussRule& rule,
         auto next = next_point(problem, rule, branch.last, step, settings, admissible);
         const bool arrives = next && sign * (next->point.solution.parameter - target) >= 0;
         if (arrives) next = arrival(problem, rule, branch.last, step, target);
-        if (!next) {
+        const bool turns = next && !arrives && next->point.tangent.parameter * branch.last.tangent.parameter < 0;
+        auto fold = turns ? locate_fold(problem, rule, branch.last, step, next->point.tangent.parameter) : std::nullopt;
+        if (!next || (turns && !fold)) {  // a corrector failed: nearer to the last point it does not
             step *= 0.5;
             continue;
         }
-        if (!arrives && next->point.tangent.parameter * branch.last.tangent.parameter < 0) {
-            auto fold = locate_fold(problem, rule, branch.last, step, next->point.tangent.parameter);
-            if (!fold) {  // the corrector failed on the way there: nearer to the fold it does not
-                step *= 0.5;
-                continue;
-            }
+        if (fold) {
             branch.folds.push_back(std::move(*fold));
             ++next->point.folds_before;
         }

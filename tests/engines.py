@@ -38,6 +38,11 @@ def texts(settings):
     return tuple(f"{key}={value}" for key, value in settings.items())
 
 
+def options(settings):
+    """Words of a command line: --set and each of the texts "key=value"."""
+    return [word for text in settings for word in ("--set", text)]
+
+
 def tiny_run(test, name, *settings):
     """Directory (Path) of a run of cases/standard.toml, name being one of TINY; skips the unittest.TestCase when the engine was not built.
 
@@ -51,6 +56,5 @@ def tiny_run(test, name, *settings):
     test.addCleanup(scratch.cleanup)
     output = Path(scratch.name) / "run"
     command = [str(program), "run", engine, str(ROOT / "cases" / "standard.toml"), "-o", str(output)]
-    options = [part for text in (*TINY[name], *settings) for part in ("--set", text)]
-    subprocess.run(command + options, check=True, capture_output=True, timeout=1200)
+    subprocess.run(command + options((*TINY[name], *settings)), check=True, capture_output=True, timeout=1200)
     return output

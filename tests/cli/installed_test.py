@@ -13,7 +13,7 @@ from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
-from engines import COARSE, texts  # noqa: E402
+from engines import COARSE, options, texts  # noqa: E402
 
 INSTALL = None
 
@@ -41,7 +41,7 @@ class Installed(unittest.TestCase):
     def test_engine_and_scripts(self):
         case = self.root / "empty.toml"
         case.write_text("")
-        settings = ["--set", *texts(COARSE["boundary-integral"]), "--until", "0.0002"]
+        settings = [*options(texts(COARSE["boundary-integral"])), "--until", "0.0002"]
         self.endoflow("run", "boundary-integral", case, "-o", self.root / "run", *settings)
         self.endoflow("revolve", self.root / "run")
         self.assertTrue((self.root / "run" / "membrane.pvd").is_file())

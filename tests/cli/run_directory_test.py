@@ -20,7 +20,7 @@ import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
-from engines import COARSE, texts  # noqa: E402
+from engines import COARSE, options, texts  # noqa: E402
 
 PROGRAM = None
 
@@ -50,8 +50,7 @@ class AnyEngine:
     @classmethod
     def words(cls, directory, *settings, restart=False):
         words = [PROGRAM, "run", cls.engine, "/dev/null", "-o", str(directory)]
-        for setting in (*SMALL[cls.engine], "output.field_interval=0", *settings):
-            words += ["--set", setting]
+        words += options((*SMALL[cls.engine], "output.field_interval=0", *settings))
         return words + (["--restart"] if restart else [])
 
     def run_with(self, *settings, restart=False, launcher=()):

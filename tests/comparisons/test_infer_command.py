@@ -10,7 +10,7 @@ from pathlib import Path
 
 import locations
 from command import unnamed_basis
-from engines import COARSE, texts
+from engines import COARSE, options, texts
 from studies import StudyTest
 
 PROGRAM = os.environ.get("ENDOFLOW_PROGRAM")
@@ -68,7 +68,7 @@ class WithTheEngine(StudyTest):
     def setUp(self):
         super().setUp()
         self.program = Path(PROGRAM)
-        settings = [part for text in texts(self.SETTINGS) for part in ("--set", text)]
+        settings = options(texts(self.SETTINGS))
         true = ["--set", "fluid.viscosity_intracellular=0.0125", "--until", "0.002", "-o", "truth"]
         subprocess.run(
             [PROGRAM, "run", "boundary-integral", "case.toml", *settings, *true],

@@ -1,12 +1,10 @@
 // Newton's method with the factors of earlier steps.
 
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
+#include "../shared/temporary_directory.h"
 #include "phasefield/fem/mesh.h"
 #include "phasefield/schemes/production/production_scheme.h"
 #include "phasefield/solver/anderson.h"
@@ -103,15 +101,14 @@ TEST_CASE("a step with the factors of another one ends where its own factors lea
 }
 
 TEST_CASE("a run that is continued goes on with the same factors", "[newton]") {
-    const auto directory =
-        std::filesystem::temp_directory_path() / ("endoflow_step_solver_test_" + std::to_string(getpid()));
+    const TemporaryDirectory directory;
     ProductionScheme scheme(small_case(), MPI_COMM_SELF), continued(small_case(), MPI_COMM_SELF);
     scheme.start();
     double time = 0;
     keep_steps(scheme, time, 3, 2e-5);
     Checkpoint checkpoint;
-    scheme.save(directory, checkpoint);
-    continued.load(directory, checkpoint);
+    scheme.save(directory.path() / "checkpoint", checkpoint);
+    continued.load(directory.path() / "checkpoint", checkpoint);
     const unsigned int before = scheme.factorisations();
     const Seen one = seen(scheme.attempt(time, 3e-5)), other = seen(continued.attempt(time, 3e-5));
     CHECK(scheme.factorisations() == before);  // else the factors would not matter
@@ -119,5 +116,4 @@ TEST_CASE("a run that is continued goes on with the same factors", "[newton]") {
     CHECK(other.height == Approx(one.height).epsilon(1e-14));
     CHECK(other.energy == Approx(one.energy).epsilon(1e-13));
     CHECK(other.dissipation == Approx(one.dissipation).epsilon(1e-12));
-    std::filesystem::remove_all(directory);
 }

@@ -20,7 +20,7 @@ import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
-from engines import COARSE, texts  # noqa: E402
+from engines import COARSE, options, texts  # noqa: E402
 
 PROGRAM = None
 
@@ -34,8 +34,7 @@ ENGINES = {
 
 def command(engine, directory, *settings, restart=False):
     words = [PROGRAM, "run", engine, "/dev/null", "-o", directory]
-    for setting in (*ENGINES[engine], "output.field_interval=0", "output.checkpoint_interval=0", *settings):
-        words += ["--set", setting]
+    words += options((*ENGINES[engine], "output.field_interval=0", "output.checkpoint_interval=0", *settings))
     return [str(word) for word in words] + (["--restart"] if restart else [])
 
 

@@ -1,12 +1,12 @@
 // The scheme with one unknown more, w − ε² Δw = c², added by the recipe of docs/extending.md: a row and an equation.
 
 #include <deal.II/base/quadrature_lib.h>
-#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 
+#include "../../shared/temporary_directory.h"
 #include "../one_step.h"
 #include "../small_case.h"
 #include "phasefield/fem/component_field.h"
@@ -78,9 +78,8 @@ TEST_CASE("an added unknown starts with its initial value and is solved for", "[
 }
 
 TEST_CASE("an added unknown is written to field files and kept in checkpoints", "[recipe]") {
-    const auto directory =
-        std::filesystem::temp_directory_path() / ("endoflow_added_unknown_" + std::to_string(getpid()));
-    std::filesystem::create_directories(directory);
+    const TemporaryDirectory scratch;
+    const auto& directory = scratch.path();
     ProductionScheme scheme(small_case(), MPI_COMM_SELF), continued(small_case(), MPI_COMM_SELF);
     scheme.start();
     const StepOutcome step = scheme.attempt(0, 2e-5);
@@ -91,5 +90,4 @@ TEST_CASE("an added unknown is written to field files and kept in checkpoints", 
     continued.load(directory / "checkpoint", checkpoint);
     CHECK(written(continued, directory, 2e-5) == written(scheme, directory, 2e-5));
     CHECK(written(continued, directory, 2e-5) != written(scheme, directory, 0));
-    std::filesystem::remove_all(directory);
 }
