@@ -16,16 +16,18 @@ import termios
 import unittest
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+
+from engines import options  # noqa: E402
+
 PROGRAM = None
 COLUMNS = 40
 
 
 def run_words(directory, *settings):
     words = [PROGRAM, "run", "boundary-integral", "/dev/null", "-o", str(directory)]
-    for setting in ("boundary_integral.elements=24", "boundary_integral.threads=1", "output.field_interval=0",
-                    "molecules.interface_width=5", "time.end=1e-4", *settings):
-        words += ["--set", setting]
-    return words
+    return words + options(("boundary_integral.elements=24", "boundary_integral.threads=1", "output.field_interval=0",
+                            "molecules.interface_width=5", "time.end=1e-4", *settings))
 
 
 class Streams(unittest.TestCase):

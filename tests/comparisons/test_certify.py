@@ -14,6 +14,7 @@ import synthetic
 from comparisons.measures.certificate import SAFETY, certificate, in_words, layer_parts, sharp_parts
 from comparisons.page.run_report import run_html
 from comparisons.studies.refined_runs import denser_settings, finer_settings, thinner_settings
+from engines import options
 from studies import StudyTest
 
 import endoflow
@@ -169,8 +170,7 @@ class Coverage(unittest.TestCase):
         for settings, converged in CONVERGED:
             with self.subTest(settings), tempfile.TemporaryDirectory() as scratch:
                 chosen = ("output.stop_at_budding=true", "output.field_interval=0", "time.end=1", *settings)
-                given = [part for setting in chosen for part in ("--set", setting)]
-                run = [program, "run", "boundary-integral", "standard", "--certify", "-o", f"{scratch}/run", *given]
+                run = [program, "run", "boundary-integral", "standard", "--certify", "-o", f"{scratch}/run", *options(chosen)]
                 result = subprocess.run(run, capture_output=True, text=True, timeout=1200)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 record = json.loads((Path(scratch) / "run" / "run.json").read_text())

@@ -14,6 +14,8 @@ import time
 import unittest
 from pathlib import Path
 
+import locations  # noqa: F401
+from engines import options
 from studies import BOUNDARY_INTEGRAL, StudyTest, SweepTest
 
 NEEDED = ("munged", "slurmctld", "slurmd", "sbatch", "squeue")
@@ -200,8 +202,7 @@ class MpiOnSlurm(ClusterTest):
     """The diffuse engine with two tasks: started by Slurm itself (srun, PMIx), and by OpenMPI's mpirun in an array's member."""
 
     #: Two steps of a thick layer.
-    SETTINGS = ("phase_field.epsilon=2.4", "output.field_interval=0")
-    SHORT = ("--until", "2e-5", *(part for setting in SETTINGS for part in ("--set", setting)))
+    SHORT = ("--until", "2e-5", *options(("phase_field.epsilon=2.4", "output.field_interval=0")))
 
     def slurm(self, *words):
         """Run a command of Slurm, which succeeds; returns what it printed."""

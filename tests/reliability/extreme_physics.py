@@ -18,6 +18,10 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+
+from engines import options, texts  # noqa: E402
+
 ENGINES = ("boundary-integral", "phase-field")
 ENDED_WELL = (0, "")
 BAD_INPUT = (2, "domain.membrane_height")
@@ -96,8 +100,7 @@ class Wrong(Exception):
 
 def run(program, engine, case, directory):
     settings = {"output.field_interval": 0, **COMMON[engine], **case.settings}
-    words = [program, "run", engine, "/dev/null", "-o", directory]
-    words += [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+    words = [program, "run", engine, "/dev/null", "-o", directory, *options(texts(settings))]
     return subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=LONGEST)
 
 

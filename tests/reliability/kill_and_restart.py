@@ -28,7 +28,7 @@ import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
-from engines import COARSE  # noqa: E402
+import engines  # noqa: E402
 
 TOLERANCE = {"boundary-integral": 1e-10, "phase-field": 1e-8}
 
@@ -39,7 +39,7 @@ SETTINGS = {
         "boundary_integral.threads": 1,
         "boundary_integral.restart_interval": 8,  # so that there are many points to go on from
     },
-    "phase-field": COARSE["phase-field"] | {
+    "phase-field": engines.COARSE["phase-field"] | {
         "molecules.interface_width": 5.5,  # wide enough for the coat's edge to need no smaller cells
     },
 }
@@ -60,7 +60,7 @@ def command(options, directory, restart):
         **dict(item.split("=", 1) for item in options.set),
     }
     words = [options.program, "run", options.engine, options.case, "-o", directory]
-    words += [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+    words += engines.options(engines.texts(settings))
     return [str(word) for word in words] + (["--restart"] if restart else [])
 
 

@@ -17,6 +17,10 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+
+import engines  # noqa: E402
+
 ROOT = Path(__file__).resolve().parents[2]
 ALLOWED = 2  # times boundary_integral.accuracy
 LEAST_COVERAGE = 0.9
@@ -49,7 +53,7 @@ def run(program, known, directory, certify):
     """The run.json of a run with default accuracy."""
     case = ROOT / "cases" / "standard.toml"
     words = [program, "run", "boundary-integral", case, "-o", directory, "--until", known.end]
-    words += [word for setting in (*known.settings, *SETTINGS) for word in ("--set", setting)]
+    words += engines.options((*known.settings, *SETTINGS))
     words += ["--certify"] if certify else []
     subprocess.run([str(word) for word in words], check=True, stdout=subprocess.DEVNULL)
     return json.loads((directory / "run.json").read_text(encoding="utf-8"))

@@ -21,8 +21,11 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import pairs_oracle as oracle
-from kill_and_restart import SETTINGS, directory_of_runs
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+
+import engines  # noqa: E402
+import pairs_oracle as oracle  # noqa: E402
+from kill_and_restart import SETTINGS, directory_of_runs  # noqa: E402
 
 UNTIL = {"boundary-integral": 5e-4, "phase-field": 2e-4}
 PATCHES = (18, 22)  # nm: two problems whose masses and energies differ by tens of per cent
@@ -61,7 +64,7 @@ class Command:
             "time.end": self.end,
         }
         words = [options.program, "run", options.engine, "/dev/null", "-o", directory]
-        words += [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+        words += engines.options(engines.texts(settings))
         words += ["--restart"] if self.restart else []
         launcher = ["mpirun", "-n", self.processes, "--oversubscribe"] if self.processes > 1 else []
         return [str(word) for word in launcher + words]
