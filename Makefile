@@ -1,13 +1,13 @@
 # The project's commands. The two a newcomer needs: `make demo` and `make test`.
 #
 #   make demo       install what is missing, build, run both engines on cases/demo.toml, compare: out/demo/report.html
-#   make test       the same set-up, then all tests, clang-format and clang-tidy   (SANITIZE=1: with sanitizers)
+#   make test       the same set-up, then all tests and make lint   (SANITIZE=1: with sanitizers)
 #                   SANITIZE=thread: the engine with threads, under the thread sanitizer
 #   make build      build/endoflow and its engines
 #   make install    DESTDIR and prefix as usual          make package   a Debian package in build/
 #   make bench      what the engines cost here: out/bench/bench.md   (BENCH=--quick: minutes instead of tens of minutes)
 #   make docs       docs/ as HTML in build/docs      make docs-check  run every command of README and docs/
-#   make format     clang-format on all sources          make lint      clang-format and clang-tidy, check only
+#   make format     clang-format on all sources          make lint      clang-format, clang-tidy and pyflakes, check only
 # UNITY=OFF compiles file by file: longer from nothing, shorter after an edit; the choice where a compiler cache is set.
 # PHASEFIELD=OFF leaves the phase-field engine (deal.II, MPI) out of all of them.
 
@@ -97,6 +97,7 @@ format:
 # clang-tidy sees each file by itself, so that one cannot live on what another includes.
 lint:
 	git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
+	tools/pyflakes
 	@cmake --preset $(preset) -B $(build)/lint -DENDOFLOW_PHASEFIELD=$(PHASEFIELD) -DENDOFLOW_UNITY=OFF > /dev/null
 	tools/clang_tidy $(build)/lint $(CORES)
 

@@ -185,10 +185,10 @@ def costs(history, cpu_per_wall_time, times):
     """(time, CPU s, steps) up to each of `times`, or to the run's end where that is earlier."""
     rows = times_and_walls(history)
     found = []
-    for time in times:
-        steps = min(sum(at < time * (1 - 1e-9) for at, _ in rows), len(rows) - 1)
+    for end in times:
+        steps = min(sum(at < end * (1 - 1e-9) for at, _ in rows), len(rows) - 1)
         at, wall = rows[steps]
-        found.append((min(at, time), cpu_per_wall_time * wall, steps))
+        found.append((min(at, end), cpu_per_wall_time * wall, steps))
     return found
 
 

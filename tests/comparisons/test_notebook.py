@@ -10,7 +10,6 @@ import importlib.util
 import json
 import os
 import re
-import subprocess
 import sys
 import tempfile
 import threading
@@ -19,8 +18,6 @@ import unittest
 from pathlib import Path
 
 import locations
-
-import endoflow
 
 PROGRAM = os.environ.get("ENDOFLOW_PROGRAM", "")
 NOTEBOOKS = sorted((locations.ROOT / "python" / "notebooks").glob("*.ipynb"))
