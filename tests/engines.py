@@ -2,8 +2,9 @@
 
 import os
 import subprocess
-import tempfile
 from pathlib import Path
+
+from scratch import scratch_directory
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -52,9 +53,7 @@ def tiny_run(test, name, *settings):
     program = Path(os.environ.get("ENDOFLOW_PROGRAM", ""))
     if not (program.parent / f"endoflow-{engine}").exists():
         test.skipTest(f"the {engine} engine is not built")
-    scratch = tempfile.TemporaryDirectory()
-    test.addCleanup(scratch.cleanup)
-    output = Path(scratch.name) / "run"
+    output = scratch_directory(test) / "run"
     command = [str(program), "run", engine, str(ROOT / "cases" / "standard.toml"), "-o", str(output)]
     subprocess.run(command + options((*TINY[name], *settings)), check=True, capture_output=True, timeout=1200)
     return output

@@ -9,10 +9,13 @@ import re
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+
+from scratch import scratch_directory  # noqa: E402
 
 PROGRAM = None
 
@@ -23,9 +26,7 @@ def endoflow(*arguments, cwd=None):
 
 class CommandLine(unittest.TestCase):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.root = Path(holder.name)
+        self.root = scratch_directory(self)
 
     def case(self, text):
         file = self.root / "case.toml"

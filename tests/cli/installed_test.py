@@ -7,13 +7,13 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from engines import COARSE, options, texts  # noqa: E402
+from scratch import scratch_directory  # noqa: E402
 
 INSTALL = None
 
@@ -21,9 +21,7 @@ INSTALL = None
 class Installed(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        holder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(holder.cleanup)
-        cls.root = Path(holder.name)
+        cls.root = scratch_directory(cls)
         subprocess.run([*INSTALL, "--prefix", "/usr"], env={**os.environ, "DESTDIR": str(cls.root / "staged")},
                        stdout=subprocess.DEVNULL, check=True)
         (cls.root / "staged" / "usr").rename(cls.root / "moved")

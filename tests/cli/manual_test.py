@@ -7,15 +7,15 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools" / "manual"))
+sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "tools" / "manual")]
 
 import described  # noqa: E402
 import make_manual  # noqa: E402
+from scratch import scratch_directory  # noqa: E402
 
 PROGRAM = None
 
@@ -23,9 +23,7 @@ PROGRAM = None
 class Manual(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        holder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(holder.cleanup)
-        cls.root = Path(holder.name)
+        cls.root = scratch_directory(cls)
         make_manual.main(PROGRAM, ROOT / "cases", cls.root)
         cls.commands, cls.parameters = described.commands(PROGRAM), described.parameters(PROGRAM)
 

@@ -10,7 +10,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 from pathlib import Path
@@ -21,6 +20,7 @@ import numpy as np
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from engines import COARSE, options, texts  # noqa: E402
+from scratch import scratch_directory  # noqa: E402
 
 PROGRAM = None
 
@@ -36,15 +36,11 @@ def files(directory):
 
 class AnyEngine:
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.directory = Path(holder.name) / "run"
+        self.directory = scratch_directory(self) / "run"
 
     @classmethod
     def setUpClass(cls):
-        holder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(holder.cleanup)
-        cls.finished = Path(holder.name) / "run"
+        cls.finished = scratch_directory(cls) / "run"
         subprocess.run(cls.words(cls.finished, "time.end=5e-5"), stdout=subprocess.DEVNULL, check=True)
 
     @classmethod

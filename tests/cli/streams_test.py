@@ -11,7 +11,6 @@ import re
 import struct
 import subprocess
 import sys
-import tempfile
 import termios
 import unittest
 from pathlib import Path
@@ -19,6 +18,7 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from engines import options  # noqa: E402
+from scratch import scratch_directory  # noqa: E402
 
 PROGRAM = None
 COLUMNS = 40
@@ -32,9 +32,7 @@ def run_words(directory, *settings):
 
 class Streams(unittest.TestCase):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.directory = Path(holder.name) / "run"
+        self.directory = scratch_directory(self) / "run"
 
     def assert_run_is_whole(self):
         record = json.loads((self.directory / "run.json").read_text())

@@ -3,12 +3,11 @@
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import locations
 import synthetic
+from scratch import scratch_directory
 
 
 def compare(*arguments, stdout=subprocess.PIPE, **environment):
@@ -43,7 +42,5 @@ class CompareTest(CommandTest):
 
     @classmethod
     def setUpClass(cls):
-        scratch = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(scratch.cleanup)
-        cls.scratch = Path(scratch.name)
+        cls.scratch = scratch_directory(cls)
         cls.a, cls.b = synthetic.write_pair(cls.scratch, count=9)

@@ -5,12 +5,12 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import locations
 import synthetic
 from command import CommandTest
+from scratch import scratch_directory
 
 PATCHES = "molecules.patch_radius=20:60:20"
 BOUNDARY_INTEGRAL = ("--engine", "boundary-integral")
@@ -22,9 +22,7 @@ class StudyTest(CommandTest):
     """Gives each test self.scratch (Path) with case.toml, and the program's log of runs."""
 
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.scratch = Path(scratch.name)
+        self.scratch = scratch_directory(self)
         self.program = self.scratch / "endoflow"
         path = str(FAKE.parent)
         self.program.write_text(

@@ -17,6 +17,7 @@ from pathlib import Path
 from unittest import mock
 
 import locations
+from scratch import scratch_directory
 
 import numpy as np
 
@@ -35,9 +36,7 @@ ENGINE = "boundary-integral"
 @unittest.skipUnless(os.access(PROGRAM, os.X_OK), "ENDOFLOW_PROGRAM names no program")
 class Commands(unittest.TestCase):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.scratch = Path(scratch.name)
+        self.scratch = scratch_directory(self)
         before = os.getcwd()
         os.chdir(self.scratch)
         self.addCleanup(os.chdir, before)

@@ -15,6 +15,7 @@ from comparisons.measures.certificate import SAFETY, certificate, in_words, laye
 from comparisons.page.run_report import run_html
 from comparisons.studies.refined_runs import denser_settings, finer_settings, thinner_settings
 from engines import options
+from scratch import scratch_directory
 from studies import StudyTest
 
 import endoflow
@@ -33,9 +34,7 @@ LAST_DIGIT = 5e-6
 
 class Numbers(unittest.TestCase):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.scratch = Path(scratch.name)
+        self.scratch = scratch_directory(self)
 
     def run_at(self, name, offset):
         membrane = lambda t: synthetic.budding_membrane(t, 1.0, offset)  # noqa: E731

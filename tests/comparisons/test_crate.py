@@ -5,10 +5,10 @@ import io
 import json
 import tempfile
 import unittest
-from pathlib import Path
 
 import locations  # noqa: F401
 import synthetic
+from scratch import scratch_directory
 
 from comparisons.commands.guard import call
 
@@ -16,9 +16,7 @@ from comparisons.commands.guard import call
 class Crate(unittest.TestCase):
     def crate(self, *arguments):
         """The run's directory, exit code, and content of the metadata after `endoflow crate`."""
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        directory = Path(scratch.name) / "run"
+        directory = scratch_directory(self) / "run"
         synthetic.write_run(directory, "boundary-integral", lambda t: synthetic.budding_membrane(t, 1.0), [0.0, 1.0])
         with contextlib.redirect_stdout(io.StringIO()):
             code = call(["crate", str(directory), *arguments])

@@ -15,6 +15,7 @@ import unittest
 from pathlib import Path
 
 import locations
+from scratch import scratch_directory
 
 TOOLS = locations.ROOT / "tools" / "docs"
 sys.path.insert(0, str(TOOLS))
@@ -160,9 +161,7 @@ class Checker(unittest.TestCase):
     """The checker finds what it is for."""
 
     def page(self, text):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        path = Path(scratch.name) / "page.md"
+        path = scratch_directory(self) / "page.md"
         path.write_text(text)
         return path
 

@@ -1,13 +1,12 @@
 """Inference: priors, a run's course, emulator, fit, posterior, calibration, sensitivity, on a model in closed form."""
 
-import tempfile
 import unittest
-from pathlib import Path
 
 import locations  # noqa: F401
 import numpy as np
 import stand_in
 import synthetic
+from scratch import scratch_directory
 
 import endoflow
 from comparisons.errors import StudyError
@@ -50,9 +49,7 @@ class InferTest(unittest.TestCase):
     """Gives each test self.scratch (Path), and studies with data from known parameters."""
 
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.scratch = Path(scratch.name)
+        self.scratch = scratch_directory(self)
 
     def write_neck(self, settings, count=30, error=0.4, seed=3, scale=1.0, offset=0.0):
         """neck.csv with noise from a course with {key: value}; its times are scaled and shifted."""

@@ -4,7 +4,6 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -15,6 +14,7 @@ from comparisons.studies.members import CONTINUE, FINISHED, FRESH, Member, direc
 from comparisons.studies.cost import expected_seconds, remaining_seconds, steps
 from comparisons.studies.progress import duration
 from comparisons.studies.sweep_table import row
+from scratch import scratch_directory
 from studies import StudyTest
 
 
@@ -34,9 +34,7 @@ class Names(unittest.TestCase):
 
 class Work(unittest.TestCase):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.directory = Path(scratch.name)
+        self.directory = scratch_directory(self)
 
     def left(self, state="finished", reason="done", checkpoint=True, engine="phase-field", time=1.0, **changes):
         record = {"engine": "phase-field", "state": state, "exit_reason": reason, "time_us": time}

@@ -1,13 +1,12 @@
 """Metrics of two runs of a family known in closed form."""
 
 import json
-import tempfile
 import unittest
 from dataclasses import replace
-from pathlib import Path
 
 import locations  # noqa: F401
 import numpy as np
+from scratch import scratch_directory
 
 import endoflow
 import synthetic
@@ -28,9 +27,7 @@ LABELS = ("first", "second")
 class ParallelRuns(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        scratch = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(scratch.cleanup)
-        a, b = synthetic.write_pair(Path(scratch.name), OFFSET)
+        a, b = synthetic.write_pair(scratch_directory(cls), OFFSET)
         cls.metrics = compare_runs(endoflow.load(a), endoflow.load(b), LABELS)
 
     def test_distances_equal_the_offset_at_every_time(self):
@@ -85,9 +82,7 @@ class ParallelRuns(unittest.TestCase):
 
 class DifferentRuns(unittest.TestCase):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.scratch = Path(scratch.name)
+        self.scratch = scratch_directory(self)
 
     def run_with(self, name, times, **changes):
         membrane = lambda t: synthetic.budding_membrane(t, 1.0)  # noqa: E731

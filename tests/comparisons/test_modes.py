@@ -6,9 +6,7 @@ python3 tests/comparisons/test_modes.py
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import locations
 import h5py
@@ -17,6 +15,7 @@ import endoflow
 import synthetic
 from browser import Browser, chromium
 from command import unnamed_basis
+from scratch import scratch_directory
 
 TIMES, BUDDING = (0.0, 0.4, 0.8, 1.0), 0.8
 INITIAL = ("dome", "edge", "sheet", "coat", "worst")
@@ -63,8 +62,7 @@ def write_tables(directory):
 class ModesDirectory(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
-        cls.directory = Path(cls.scratch.name)
+        cls.directory = scratch_directory(cls)
         write_tables(cls.directory)
         flat = synthetic.SphereOnPlane(1e5, 1e-3, 80.0, 1e-9)
         synthetic.write_run(cls.directory / "run", "boundary-integral", lambda t: flat, [0, 1.0])
@@ -73,10 +71,6 @@ class ModesDirectory(unittest.TestCase):
             capture_output=True,
             text=True,
         )
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.scratch.cleanup()
 
     def test_reader(self):
         modes = endoflow.load_modes(self.directory)
@@ -115,10 +109,9 @@ class ModesDirectory(unittest.TestCase):
         np.testing.assert_allclose(odd[half:] * turned, -odd[:half], atol=1e-12)
 
     def test_a_directory_without_modes(self):
-        with tempfile.TemporaryDirectory() as empty:
-            process = subprocess.run(
-                [sys.executable, locations.COMPARISONS, "modes", empty], capture_output=True, text=True
-            )
+        process = subprocess.run(
+            [sys.executable, locations.COMPARISONS, "modes", scratch_directory(self)], capture_output=True, text=True
+        )
         self.assertEqual(process.returncode, 4)
         self.assertIn("holds no modes", process.stderr)
 

@@ -13,6 +13,7 @@ import locations
 import numpy as np
 import synthetic
 from command import CommandTest
+from scratch import scratch_directory
 
 
 def movie(*arguments, **environment):
@@ -29,9 +30,7 @@ def movie(*arguments, **environment):
 class Movie(CommandTest):
     @classmethod
     def setUpClass(cls):
-        scratch = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(scratch.cleanup)
-        cls.scratch = Path(scratch.name)
+        cls.scratch = scratch_directory(cls)
         cls.run_, _ = synthetic.write_pair(cls.scratch, count=9)
 
     def probe(self, file):

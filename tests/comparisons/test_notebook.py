@@ -11,13 +11,12 @@ import json
 import os
 import re
 import sys
-import tempfile
 import threading
 import time
 import unittest
-from pathlib import Path
 
 import locations
+from scratch import scratch_directory
 
 PROGRAM = os.environ.get("ENDOFLOW_PROGRAM", "")
 NOTEBOOKS = sorted((locations.ROOT / "python" / "notebooks").glob("*.ipynb"))
@@ -50,9 +49,7 @@ class Stored(unittest.TestCase):
 @unittest.skipUnless(os.access(PROGRAM, os.X_OK), "ENDOFLOW_PROGRAM names no program")
 class InAKernel(unittest.TestCase):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.scratch = Path(scratch.name)
+        self.scratch = scratch_directory(self)
 
     def execute(self, *sources, meanwhile=None):
         """The cells of these sources after execution, exceptions and all; meanwhile(client) runs beside them in a thread."""

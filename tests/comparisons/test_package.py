@@ -12,6 +12,7 @@ import unittest
 from pathlib import Path
 
 import locations
+from scratch import scratch_directory
 
 PACKAGE = locations.ROOT / "python"
 SAY = "import endoflow\ntry: print(endoflow.__file__, endoflow.program())\nexcept endoflow.FileError as error: print(error)"
@@ -32,9 +33,7 @@ class Types(unittest.TestCase):
 class Installed(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        holder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(holder.cleanup)
-        cls.root = Path(holder.name)
+        cls.root = scratch_directory(cls)
         # A copy with a name that a URL must encode, and with what may be a program beside it.
         cls.source = cls.root / "source tree"
         shutil.copytree(PACKAGE, cls.source / "python", ignore=shutil.ignore_patterns("__pycache__"))

@@ -8,6 +8,7 @@ from pathlib import Path
 import locations  # noqa: F401
 import h5py
 import numpy as np
+from scratch import scratch_directory
 
 import endoflow
 import synthetic
@@ -48,11 +49,9 @@ class Curves(unittest.TestCase):
 class LoadedRun(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.scratch.cleanup)
         times = np.linspace(0, 1, 11)
         directory = synthetic.write_run(
-            Path(cls.scratch.name) / "run", "boundary-integral", lambda t: synthetic.budding_membrane(t, 1.0), times
+            scratch_directory(cls) / "run", "boundary-integral", lambda t: synthetic.budding_membrane(t, 1.0), times
         )
         cls.run_ = endoflow.load(directory)
 
@@ -180,11 +179,9 @@ class ClosedCurves(unittest.TestCase):
 
 class DamagedRun(unittest.TestCase):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
         membrane = lambda t: synthetic.budding_membrane(t, 1.0)  # noqa: E731
         self.run_ = synthetic.write_run(
-            Path(scratch.name) / "run", "phase-field", membrane, np.array([0.0, 0.5, 1.0]), points=50
+            scratch_directory(self) / "run", "phase-field", membrane, np.array([0.0, 0.5, 1.0]), points=50
         )
 
     def assert_refused(self, pattern):

@@ -11,6 +11,7 @@ import locations
 import synthetic
 from browser import Browser, chromium
 from comparisons.page.numbers import code, count_or_figures, figures, flattened, percent, prose, setting
+from scratch import scratch_directory
 
 READY = "document.documentElement?.dataset.ready === 'true'"
 PICTURE = "document.getElementById('membranes').toDataURL()"
@@ -38,9 +39,7 @@ DRAG = """(() => {
 class Report(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        scratch = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(scratch.cleanup)
-        scratch = Path(scratch.name)
+        scratch = scratch_directory(cls)
         a, b = synthetic.write_pair(scratch, count=21)
         case = synthetic.parameters(molecules__transport="fickian</script><b>")
         synthetic.write_run(

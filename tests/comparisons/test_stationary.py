@@ -1,13 +1,12 @@
 """A stationary shape beside a run in `endoflow compare`."""
 
 import json
-import tempfile
 import unittest
 from dataclasses import dataclass
-from pathlib import Path
 
 import locations  # noqa: F401
 import numpy as np
+from scratch import scratch_directory
 
 import endoflow
 import synthetic
@@ -53,9 +52,7 @@ class Spheroid:
 class BesideARun(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        scratch = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(scratch.cleanup)
-        cls.scratch = Path(scratch.name)
+        cls.scratch = scratch_directory(cls)
         cls.moving = synthetic.write_run(
             cls.scratch / "run", "boundary-integral", lambda t: synthetic.budding_membrane(t, DURATION), TIMES
         )

@@ -5,16 +5,15 @@
 
 import subprocess
 import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
-from pathlib import Path
 
 import locations
 import numpy as np
 import endoflow
 import synthetic
 from engines import tiny_run
+from scratch import scratch_directory
 
 try:
     from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -107,9 +106,7 @@ class Fields(unittest.TestCase):
 @unittest.skipIf(vtk_to_numpy is None, "VTK is not installed (Debian package python3-vtk9)")
 class RevolvedMembrane(unittest.TestCase):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.run_, _ = synthetic.write_pair(Path(scratch.name), count=5)
+        self.run_, _ = synthetic.write_pair(scratch_directory(self), count=5)
 
     def revolve(self, *arguments):
         return subprocess.run(

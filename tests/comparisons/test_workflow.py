@@ -8,12 +8,11 @@ import os
 import shutil
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
-from pathlib import Path
 
 import locations
+from scratch import scratch_directory
 
 PROGRAM = os.path.abspath(os.environ.get("ENDOFLOW_PROGRAM", "endoflow"))
 
@@ -22,9 +21,7 @@ PROGRAM = os.path.abspath(os.environ.get("ENDOFLOW_PROGRAM", "endoflow"))
 @unittest.skipUnless(os.access(PROGRAM, os.X_OK), "ENDOFLOW_PROGRAM names no program")
 class Workflow(unittest.TestCase):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.scratch = Path(scratch.name)
+        self.scratch = scratch_directory(self)
 
     def snakemake(self, until, *words):
         """The command line, for runs to `until` µs; words: options or targets."""

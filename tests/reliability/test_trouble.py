@@ -10,7 +10,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 from pathlib import Path
@@ -21,6 +20,7 @@ import numpy as np
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from engines import COARSE, options, texts  # noqa: E402
+from scratch import scratch_directory  # noqa: E402
 
 PROGRAM = None
 
@@ -72,15 +72,11 @@ class AnyEngine:
 
     @classmethod
     def setUpClass(cls):
-        holder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(holder.cleanup)
-        cls.finished = Path(holder.name) / "run"  # with two checkpoints, to be copied
+        cls.finished = scratch_directory(cls) / "run"  # with two checkpoints, to be copied
         subprocess.run(command(cls.engine, cls.finished, "time.end=2e-5"), stdout=subprocess.DEVNULL, check=True)
 
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.directory = Path(holder.name) / "run"
+        self.directory = scratch_directory(self) / "run"
 
     def start(self, *settings, restart=False, **how):
         words = without_power_over_permissions(command(self.engine, self.directory, *settings, restart=restart))

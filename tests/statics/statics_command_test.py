@@ -8,12 +8,15 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
 import h5py
 import numpy as np
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+
+from scratch import scratch_directory  # noqa: E402
 
 PROGRAM = None
 
@@ -24,9 +27,7 @@ def endoflow(*arguments):
 
 class Statics(unittest.TestCase):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.root = Path(holder.name)
+        self.root = scratch_directory(self)
         self.output = self.root / "statics"
         self.case = self.root / "case.toml"
         self.case.write_text("[molecules]\npatch_radius = 22\n")
