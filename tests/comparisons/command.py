@@ -1,4 +1,4 @@
-"""Runs the command under test, on two runs whose membranes are parallel curves."""
+"""Runs the command under test; `compare` on two runs whose membranes are parallel curves."""
 
 import os
 import subprocess
@@ -10,16 +10,26 @@ import synthetic
 from scratch import scratch_directory
 
 
-def compare(*arguments, stdout=subprocess.PIPE, **environment):
-    """Run `compare` with additions to the environment; returns the finished process with its text."""
+def words(command, *arguments):
+    """What is started as `endoflow COMMAND ARGUMENTS`."""
+    return [sys.executable, locations.COMPARISONS, command, *map(str, arguments)]
+
+
+def call(command, *arguments, stdout=subprocess.PIPE, **environment):
+    """Run a command with additions to the environment; returns the finished process with its text."""
     return subprocess.run(
-        [sys.executable, locations.COMPARISONS, "compare", *map(str, arguments)],
+        words(command, *arguments),
         stdout=stdout,
         stderr=subprocess.PIPE,
         text=True,
         timeout=1200,
         env={**os.environ, **environment},
     )
+
+
+def compare(*arguments, **how):
+    """Run `compare`, otherwise as call."""
+    return call("compare", *arguments, **how)
 
 
 class CommandTest(unittest.TestCase):

@@ -7,9 +7,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-import locations
+import locations  # noqa: F401
 import synthetic
-from command import CommandTest
+from command import CommandTest, words
 from scratch import scratch_directory
 
 PATCHES = "molecules.patch_radius=20:60:20"
@@ -43,16 +43,13 @@ class StudyTest(CommandTest):
         content[section] = {**content.get(section, {}), **values}
         path.write_text(json.dumps(content))
 
-    def arguments(self, command, *arguments):
-        return [sys.executable, locations.COMPARISONS, command, *map(str, arguments)]
-
     def environment(self):
         return {**os.environ, "ENDOFLOW_PROGRAM": str(self.program)}
 
     def call(self, command, *arguments):
         """Run a study in the scratch directory; returns the finished process with its text."""
         return subprocess.run(
-            self.arguments(command, *arguments),
+            words(command, *arguments),
             capture_output=True,
             text=True,
             timeout=1200,
@@ -63,7 +60,7 @@ class StudyTest(CommandTest):
     def start(self, command, *arguments):
         """The same without waiting for its end."""
         return subprocess.Popen(
-            self.arguments(command, *arguments),
+            words(command, *arguments),
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,

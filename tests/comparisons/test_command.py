@@ -2,12 +2,11 @@
 
 import signal
 import subprocess
-import sys
 import time
 import unittest
 
-import locations
-from command import CompareTest, compare
+import locations  # noqa: F401
+from command import CompareTest, compare, words
 
 import synthetic
 
@@ -56,10 +55,7 @@ class Command(CompareTest):
     def test_interrupted(self):
         output = self.scratch / "interrupted"
         process = subprocess.Popen(
-            [sys.executable, locations.COMPARISONS, "compare", str(self.a), str(self.b), "-o", str(output)],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
+            words("compare", self.a, self.b, "-o", output), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
         )
         while not (output / "metrics.json").exists() and process.poll() is None:
             time.sleep(0.01)

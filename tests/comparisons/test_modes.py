@@ -4,17 +4,15 @@ python3 tests/comparisons/test_modes.py
 """
 
 import re
-import subprocess
-import sys
 import unittest
 
-import locations
+import locations  # noqa: F401
 import h5py
 import numpy as np
 import endoflow
 import synthetic
 from browser import Browser, chromium
-from command import unnamed_basis
+from command import call, unnamed_basis
 from scratch import scratch_directory
 
 TIMES, BUDDING = (0.0, 0.4, 0.8, 1.0), 0.8
@@ -66,11 +64,7 @@ class ModesDirectory(unittest.TestCase):
         write_tables(cls.directory)
         flat = synthetic.SphereOnPlane(1e5, 1e-3, 80.0, 1e-9)
         synthetic.write_run(cls.directory / "run", "boundary-integral", lambda t: flat, [0, 1.0])
-        cls.process = subprocess.run(
-            [sys.executable, locations.COMPARISONS, "modes", str(cls.directory), "--run", str(cls.directory / "run")],
-            capture_output=True,
-            text=True,
-        )
+        cls.process = call("modes", cls.directory, "--run", cls.directory / "run")
 
     def test_reader(self):
         modes = endoflow.load_modes(self.directory)
@@ -109,9 +103,7 @@ class ModesDirectory(unittest.TestCase):
         np.testing.assert_allclose(odd[half:] * turned, -odd[:half], atol=1e-12)
 
     def test_a_directory_without_modes(self):
-        process = subprocess.run(
-            [sys.executable, locations.COMPARISONS, "modes", scratch_directory(self)], capture_output=True, text=True
-        )
+        process = call("modes", scratch_directory(self))
         self.assertEqual(process.returncode, 4)
         self.assertIn("holds no modes", process.stderr)
 

@@ -1,30 +1,21 @@
 """`endoflow movie`: the film it writes, read back with ffprobe, and its messages."""
 
 import json
-import os
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-import locations
+import locations  # noqa: F401
 import numpy as np
 import synthetic
-from command import CommandTest
+from command import CommandTest, call
 from scratch import scratch_directory
 
 
 def movie(*arguments, **environment):
-    """Run `movie`; returns the finished process with its text."""
-    return subprocess.run(
-        [sys.executable, locations.COMPARISONS, "movie", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        timeout=1200,
-        env={**os.environ, **environment},
-    )
+    return call("movie", *arguments, **environment)
 
 
 class Movie(CommandTest):

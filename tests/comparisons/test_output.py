@@ -1,12 +1,10 @@
 """What `endoflow compare` writes."""
 
 import json
-import subprocess
-import sys
 import unittest
 
 import locations  # noqa: F401
-from command import CompareTest, compare, unnamed_basis
+from command import CompareTest, call, compare, unnamed_basis
 
 import synthetic
 
@@ -71,9 +69,7 @@ class Output(CompareTest):
             if alarms is None:
                 del record["alarms"]
             (alone / "run.json").write_text(json.dumps(record))
-            process = subprocess.run(
-                [sys.executable, locations.COMPARISONS, "report", str(alone)], capture_output=True, text=True
-            )
+            process = call("report", alone)
             self.assertEqual((process.returncode, process.stderr), (0, ""))
             page = (alone / "report" / "report.html").read_text()
             self.assertRegex(page, rf"<th scope=\"row\">alarms</th><td>{words}")

@@ -10,6 +10,7 @@ from pathlib import Path
 import locations
 import synthetic
 from browser import Browser, chromium
+from command import compare
 from comparisons.page.numbers import code, count_or_figures, figures, flattened, percent, prose, setting
 from scratch import scratch_directory
 
@@ -51,9 +52,7 @@ class Report(unittest.TestCase):
             case,
         )
         output = scratch / "out"
-        subprocess.run(
-            [sys.executable, locations.COMPARISONS, "compare", str(a), str(b), "-o", str(output)], check=True, capture_output=True
-        )
+        compare(a, b, "-o", output).check_returncode()
         cls.report = output / "report.html"
         cls.browser = cls.enterClassContext(Browser())
 

@@ -15,6 +15,7 @@ import unittest
 from pathlib import Path
 
 import locations  # noqa: F401
+from command import words
 from engines import options
 from studies import BOUNDARY_INTEGRAL, StudyTest, SweepTest
 
@@ -225,7 +226,7 @@ class MpiOnSlurm(ClusterTest):
         sweep = ("sweep", "case.toml", "--engine", "phase-field", "--vary", "molecules.patch_radius=36", "--processes", "2", *self.SHORT)
         environment = {**os.environ, "ENDOFLOW_PROGRAM": PROGRAM}
         for option in ("--slurm", "--collect"):
-            command = [*self.arguments(*sweep), option]
+            command = [*words(*sweep), option]
             process = subprocess.run(command, cwd=self.scratch, env=environment, capture_output=True, text=True, timeout=ENDED)
             self.assertEqual(process.returncode, 0, process.stderr)
             if option == "--slurm":

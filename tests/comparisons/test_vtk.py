@@ -3,15 +3,14 @@
     ENDOFLOW_PROGRAM=build/endoflow python3 tests/comparisons/test_vtk.py
 """
 
-import subprocess
-import sys
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-import locations
+import locations  # noqa: F401
 import numpy as np
 import endoflow
 import synthetic
+from command import call
 from engines import tiny_run
 from scratch import scratch_directory
 
@@ -109,12 +108,7 @@ class RevolvedMembrane(unittest.TestCase):
         self.run_, _ = synthetic.write_pair(scratch_directory(self), count=5)
 
     def revolve(self, *arguments):
-        return subprocess.run(
-            [sys.executable, locations.COMPARISONS, "revolve", str(self.run_), *map(str, arguments)],
-            capture_output=True,
-            text=True,
-            timeout=1200,
-        )
+        return call("revolve", self.run_, *arguments)
 
     def test_surface(self):
         for angle in (360, 90):
