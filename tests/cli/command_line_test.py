@@ -15,6 +15,7 @@ from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
+from command_lines import CommandLineTest  # noqa: E402
 from scratch import scratch_directory  # noqa: E402
 
 PROGRAM = None
@@ -24,7 +25,7 @@ def endoflow(*arguments, cwd=None):
     return subprocess.run([PROGRAM, *map(str, arguments)], cwd=cwd, capture_output=True, text=True, timeout=1200)
 
 
-class CommandLine(unittest.TestCase):
+class CommandLine(CommandLineTest):
     def setUp(self):
         self.root = scratch_directory(self)
 
@@ -32,12 +33,6 @@ class CommandLine(unittest.TestCase):
         file = self.root / "case.toml"
         file.write_text(text)
         return file
-
-    def assert_refused(self, result, code, *words):
-        self.assertEqual(result.returncode, code, result.stderr)
-        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
-        for word in words:
-            self.assertIn(word, result.stderr)
 
     def test_help_and_version(self):
         for arguments in (["--help"], ["--version"], ["run", "--help"], ["run", "boundary-integral", "--help"],

@@ -16,6 +16,7 @@ import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
+from command_lines import CommandLineTest  # noqa: E402
 from scratch import scratch_directory  # noqa: E402
 
 PROGRAM = None
@@ -25,7 +26,7 @@ def endoflow(*arguments):
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=1200)
 
 
-class Statics(unittest.TestCase):
+class Statics(CommandLineTest):
     def setUp(self):
         self.root = scratch_directory(self)
         self.output = self.root / "statics"
@@ -35,12 +36,6 @@ class Statics(unittest.TestCase):
     def rows(self):
         with open(self.output / "history.csv", encoding="utf-8", newline="") as file:
             return list(csv.DictReader(file))
-
-    def assert_refused(self, result, code, *words):
-        self.assertEqual(result.returncode, code, result.stderr)
-        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
-        for word in words:
-            self.assertIn(word, result.stderr)
 
     def test_help(self):
         result = endoflow("statics", "--help")
