@@ -30,6 +30,7 @@ inline constexpr Constant constants[] = {
     {"pressure_leak", 1.2e-5, "1/(ν ε)", "∇·u per q: decides between p and δ q"},
     {"far_part", 1e-7, "M", "with which ψ becomes the distance far from the layer"},
     {"least_normal_diffusivity", 3.15e-4, "V R (R/ε)³", "of c along the normal: 6.4e4 nm²/µs at ε = 1.2 nm"},
+    {"slowest_alignment", 0.05, "", "part of it that is left where the membrane is slow"},
     {"molecule_leak", 1.17e-4, "V", "defines c far from the layer"},
     {"crowding_length", 0.1, "h", "D_s over the speed at which molecules crowd the membrane within a cell"},
     {"uneven_fade", 20, "1/ε", "∂ₙ∇ψ beyond which the force that balances G's diffusion fades"},

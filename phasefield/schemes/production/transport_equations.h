@@ -7,6 +7,7 @@
 namespace endoflow::phasefield::production {
 
 inline constexpr double crowding_length = constant("crowding_length");
+inline constexpr double slowest_alignment = constant("slowest_alignment");
 
 /// ∂(δ_m y)/∂t + ∇·(δ_m y v), v the fluid's velocity along the membrane and the level sets' own velocity across it. The
 /// two differ where the profile is being restored; with the fluid's velocity alone y would grow in the layer's tails.
@@ -26,9 +27,12 @@ void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry
 
 /// D_n of c [nm²/µs], larger the thinner the layer. The shear within the layer tilts c's level lines off the normal, by
 /// shear rate × ε²/D_n, and the force e ∇c with them: with a constant D_n the volume's error grew as ε fell, and so it
-/// did with normals that lagged behind in the layer's tails by as little as a tenth of a step.
+/// did with normals that lagged behind in the layer's tails by as little as a tenth of a step. On cells c is constant
+/// along the normal but for an error, and what D_n moves there also goes along the membrane, out of the coat. So D_n
+/// fades with the shear, as M does with the membrane's speed.
 inline double normal_diffusivity_of_molecules(double epsilon, const StepNumbers& step) {
-    const double least = step.rates.least_normal_diffusivity / (epsilon * epsilon * epsilon);
+    const double fading = std::max(slowest_alignment, step.profile_relaxation / step.rates.profile_relaxation);
+    const double least = fading * step.rates.least_normal_diffusivity / (epsilon * epsilon * epsilon);
     return within_a_step(std::max(step.normal_diffusivity, least), epsilon, step);
 }
 
