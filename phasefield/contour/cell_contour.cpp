@@ -7,6 +7,7 @@
 
 #include "phasefield/fem/same_cell.h"
 #include "phasefield/layer/profile.h"
+#include "shared/numerics/root.h"
 
 namespace endoflow::phasefield {
 
@@ -70,17 +71,10 @@ ContourPoint CellContour::point(double x, double y) const {
 ContourPoint CellContour::root(Corner a, Corner b) const {
     if (a.x > b.x || a.y > b.y) std::swap(a, b);  // the neighbour shall find the same root
     const auto along = [&](double t) { return phi_at(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)); };
-    double low = 0, high = 1, f_low = along(0), f_high = along(1), t = std::abs(f_low) < std::abs(f_high) ? 0 : 1;
-    if (std::min(std::abs(f_low), std::abs(f_high)) > 1e-15)
-        for (int iteration = 0; iteration < 60 && high - low > 1e-14; ++iteration) {
-            const double secant = low - f_low * (high - low) / (f_high - f_low);
-            t = iteration % 3 == 2 || !(secant > low && secant < high) ? 0.5 * (low + high) : secant;
-            const double f = along(t);
-            const bool same_side = (f >= 0) == (f_low >= 0);  // zero counts as positive, as at the corners
-            (same_side ? low : high) = t;
-            (same_side ? f_low : f_high) = f;
-            if (std::abs(f) < 1e-15) break;
-        }
+    const double f_a = along(0), f_b = along(1);
+    double t = std::abs(f_a) < std::abs(f_b) ? 0 : 1;             // where round-off hides the change of sign
+    const auto shifted = [&](double x) { return along(x - 1); };  // 46 bits of 1 … 2 are an absolute error
+    if (f_a * f_b < 0) t = root_between(shifted, 1.0, 2.0, f_a, f_b, 46) - 1;
     return point(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y));
 }
 

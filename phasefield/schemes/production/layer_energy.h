@@ -13,16 +13,12 @@ inline constexpr double moment_alignment = constant("moment_alignment");
 
 /// The membrane's energy as the layer carries it, with what its equations ask for at every point.
 struct LayerEnergy {
-    explicit LayerEnergy(MembraneEnergy of_bending, const MembraneEnergy& of_edge = {})
-        : bending(std::move(of_bending)),
-          edge(of_edge),
-          density(MembraneEnergy(bending).add(of_edge)),
-          bare_stiffness(density.density(0, 0, 0).second[local::curvature][local::curvature]),
-          coupled(density.density(0.1, 0.4, 0.02).partial[local::squared_gradient] != 0) {}
+    /// An energy without a part of the coat's edge.
+    explicit LayerEnergy(const MembraneEnergy& whole) : LayerEnergy(whole, whole, {}) {}
     explicit LayerEnergy(const Parameters& parameters)
-        : LayerEnergy(bending_energy(parameters), line_energy(parameters)) {}
+        : LayerEnergy(membrane_energy(parameters), bending_energy(parameters), line_energy(parameters)) {}
 
-    MembraneEnergy bending, edge, density;  // E, E_c and their sum
+    MembraneEnergy density, bending, edge;  // E + E_c, and its parts
     double bare_stiffness;                  // ∂²e/∂κ² of the flat membrane without molecules [pN nm]
     bool coupled;  // knows ∇_Γ c: then δ(E + E_c)/δc drives the molecules and the membrane
 
@@ -31,6 +27,14 @@ struct LayerEnergy {
         return moment_alignment * epsilon * epsilon / bare_stiffness;
     }
     [[nodiscard]] double smoothing(double epsilon) const { return moment_floor * epsilon / bare_stiffness; }
+
+  private:
+    LayerEnergy(MembraneEnergy whole, MembraneEnergy of_bending, MembraneEnergy of_edge)
+        : density(std::move(whole)),
+          bending(std::move(of_bending)),
+          edge(std::move(of_edge)),
+          bare_stiffness(density.density(0, 0, 0).second[local::curvature][local::curvature]),
+          coupled(density.density(0.1, 0.4, 0.02).partial[local::squared_gradient] != 0) {}
 };
 
 /// c as the energy sees it: c itself on [0, 1], bent smoothly to stay within a twentieth of it outside. A sharp limit

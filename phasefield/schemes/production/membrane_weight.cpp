@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <boost/math/quadrature/tanh_sinh.hpp>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
-#include <cstdint>
 #include <utility>
+
+#include "shared/numerics/root.h"
 
 namespace endoflow::phasefield::production {
 
@@ -36,10 +36,7 @@ template <class Function>
 double zero_of(const Function& f, double a, double b) {
     const double fa = f(a), fb = f(b);
     if (fa * fb >= 0) return std::abs(fa) < std::abs(fb) ? a : b;
-    std::uintmax_t iterations = 100;
-    const auto bracket =
-        boost::math::tools::toms748_solve(f, a, b, fa, fb, boost::math::tools::eps_tolerance<double>(40), iterations);
-    return 0.5 * (bracket.first + bracket.second);
+    return root_between(f, a, b, fa, fb, 40);
 }
 
 double ratio_of(const FluidParameters& fluid) {
