@@ -99,7 +99,7 @@ PointPast some_past(const Parameters& p) {
 
 void check_jacobian(const Parameters& p, const LayerEnergy& energy, const StepNumbers& step) {
     const PointPast past = some_past(p);
-    const GradientChange change{0.3, -0.2};
+    const GradientChange change{0.3, -0.2, 0, 1.3};
     const auto rows_at = [&](const auto& x) { return point_equations(x, 7.0, past, change, step, energy); };
     const auto x = some_point();
     Fields<Dual<n_features>> seeded;

@@ -19,6 +19,7 @@ inline constexpr Constant constants[] = {
     {"tail_cut", 1e-3, "max δ", "f of the energy's weight δ²/(δ + f): 4 ε from the membrane normals may cross"},
     {"weight_cut", 1e-4, "(1 − φ²)²", "below it δ_m is cut off"},
     {"surface_floor", 1.2e-8, "1/ε", "added to δ, so that G, μ and s are defined everywhere"},
+    {"largest_sheet_bend", 0.5, "", "of κψ, by which the sheet at the distance ψ is longer than the membrane"},
     {"moment_floor", 3.33e-5, "ε", "continues b smoothly where the energy has no weight"},
     {"gradient_floor", 1e-3, "", "of |∇ψ| in the normal"},
     {"concentration_margin", 0.05, "", "how far beyond 0 and 1 the laws see c"},

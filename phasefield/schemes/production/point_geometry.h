@@ -31,12 +31,18 @@ struct PointPast {
     double pole_force = 0;            // along z, per area of membrane [pN/nm²]
 };
 
-/// What the equations need of ψ's second derivatives [1/nm]: n·∇∇ψ with the predicted n, how ∇ψ changes along the
-/// normal, 0 where ψ is a distance, and Δψ. The Jacobian holds both fixed.
+/// What the equations need of ψ's second derivatives: n·∇∇ψ with the predicted n, how ∇ψ changes along the normal, 0
+/// where ψ is a distance, Δψ [1/nm], and sheet_metric. The Jacobian holds all fixed.
 struct GradientChange {
     double r = 0, z = 0;
     double laplacian = 0;
+    double metric = 1;
 };
+
+/// (1 + κ₁ψ)/(1 + κ₂ψ), κ₁ and κ₂ the membrane's curvatures along the meridian and around the axis: the sheet at the
+/// distance ψ has arcs 1 + κ₁ψ times and circles 1 + κ₂ψ times as long as the membrane. From the sheet's own curvatures
+/// κᵢ/(1 + κᵢψ): `around` = ψ_r/r, and their sum Δψ. Each κᵢψ is kept below largest_sheet_bend, for normals may cross.
+double sheet_metric(double psi, double around, double laplacian);
 
 inline constexpr double surface_floor = constant("surface_floor");
 inline constexpr double gradient_floor = constant("gradient_floor");
