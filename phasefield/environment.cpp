@@ -66,6 +66,9 @@ void hold_blas_to_one_thread() {
 Environment::Environment(int& argc, char**& argv) {
     require_fast_blas(argv);
     setenv("OMP_NUM_THREADS", "1", 1);
+    // Open MPI 4.1 writes the name of a file it opens beside the directory's into 256 bytes, and aborts where they do
+    // not suffice. Shared file pointers, which that component is for, nobody uses here.
+    setenv("OMPI_MCA_sharedfp", "^lockedfile", 0);
     implementation_ = std::make_unique<Implementation>(argc, argv);
     hold_blas_to_one_thread();
 }

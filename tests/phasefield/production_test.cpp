@@ -157,7 +157,7 @@ TEST_CASE("the membrane's weight leaves no excess shear in the layer", "[product
         const double well = std::pow(std::cosh(0.02 * (i + 0.5)), -4);
         kept += 0.02 * 0.75 * well * well / (well + tail_cut);
     }
-    CHECK(cut_norm({}) * kept == Approx(1).epsilon(1e-10));
+    CHECK(cut_norm() * kept == Approx(1).epsilon(1e-10));
     // Between fluids of any ratio the viscosity stays above a fifth of the smaller one.
     for (const double ratio : {1e-3, 44.0, 60.0, 100.0, 1e3}) {
         fluid.viscosity_intracellular = ratio * 1e-3;

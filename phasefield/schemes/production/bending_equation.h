@@ -7,9 +7,9 @@ namespace endoflow::phasefield::production {
 /// What the fluid feels beside G ∇ψ, and the elastic state.
 template <class Number>
 struct BendingForces {
-    Number by_concentration;  // ∂e/∂c or μ, cut off in the tails [pN/nm]
-    Number by_thickness;      // E_ε per volume [pN/nm³]
-    ElasticState<Number> elastic;
+    Number along, across;  // ∂e/∂c or μ: along the sheets cut off in the tails [pN/nm], across with δ_E [pN/nm²]
+    Number by_thickness;   // E_ε per volume [pN/nm³]
+    SheetState<Number> sheet;
 };
 
 /// The membrane's energy as a functional of ψ, the moment b and c whose stationary value over b is E:
@@ -29,16 +29,24 @@ struct BendingForces {
 /// whose row this is, w μ = ∂E/∂c, and takes the place of ∂e/∂c in the force. The sheets' direction depends on ψ; what
 /// that adds to G vanishes where c is constant along the normal.
 ///
+/// That sheets on both sides of a curved membrane have together a larger area than the membrane is accounted for in e*
+/// (sheet_state): E is that of the sharp membrane up to ε⁴. So is its variation at constant c, but that is not the one
+/// of the sharp membrane, which takes its molecules with it: where a motion χ turns the normals by t·∇χ, the sheets'
+/// molecules, at rest in space, lag behind by ψ t·∇χ, and of E that is M₂ κ₂ (∂e/∂c) t·∇c t·∇χ. Without it G would be
+/// off by ε², and the layer would exert a net force. A coupled energy's ∂E/∂c is taken as it is, with all of E.
+///
 /// E depends on ε, too. The fluid feels E_ε ∇ε, E_ε = ∂E/∂ε at given ψ, b and c, as it feels e ∇c: then what translates
 /// membrane, molecules and thickness together changes no energy, and the layer exerts no net force of its own.
 template <class Number>
 BendingForces<Number> add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const LayerEnergy& energy,
-                                  const PointPast& past, const GradientChange& change, Fields<Number>& row) {
+                                  double r, const PointPast& past, const GradientChange& change, Fields<Number>& row) {
     const auto &psi = x[distance], &b = x[moment];
     const auto& c = x[molecule_density];
     const Number along = c.z * p.normal_r - c.r * p.normal_z;
-    const ElasticState<Number> elastic = elastic_state_at(energy, b.value, c.value, along);
-    const Number conjugate = -1.0 * (b.value * elastic.curvature + elastic.density);  // e*
+    const SheetCurvature<Number> around = sheet_curvature(psi.r, r, p.epsilon);
+    const SheetState<Number> sheet = sheet_state(energy, b.value, c.value, along, around.scaled, p.epsilon);
+    const ElasticState<Number>& elastic = sheet.elastic;
+    const Number& conjugate = sheet.conjugate;
     const EnergyWeight<Number> w = energy_weight(p.layer, psi.value, p.epsilon);
     const Number mean = 0.5 * (1.0 + p.squared_gradient);
     const double smoothing = energy.smoothing(p.epsilon);
@@ -50,7 +58,8 @@ BendingForces<Number> add_bending(const Fields<Number>& x, const PointGeometry<N
     row[normal_force] = {(p.density + surface_floor / p.epsilon) * x[normal_force].value +
                              w.first * (psi.r * b.r + psi.z * b.z + conjugate) + w.second * mean * b.value +
                              w.thickness_1 * b.value * thinning,
-                         w.value * b.r + twist * psi.r + (thickness.r * w.thickness) * b.value,
+                         w.value * b.r + twist * psi.r + (thickness.r * w.thickness) * b.value +
+                             w.value * sheet.by_curvature * around.slope,
                          w.value * b.z + twist * psi.z + (thickness.z * w.thickness) * b.value};
     add_alignment(x[normal_force], past.normal, force_diffusivity(p), row[normal_force]);
     const double compliance = energy.compliance(p.epsilon);
@@ -62,8 +71,15 @@ BendingForces<Number> add_bending(const Fields<Number>& x, const PointGeometry<N
     row[normal_force].z += flux * b.z;
     const Number by_thickness = w.thickness * (change.laplacian * b.value - conjugate) -
                                 w.thickness_1 * b.value * (1.0 - mean) -
+                                w.value * (sheet.by_thickness + sheet.by_curvature * around.by_thickness) -
                                 compliance * (0.5 * w.thickness + (1 / p.epsilon) * w.value) * slope * slope;
-    if (!energy.coupled) return {w.kept * elastic.by_concentration, by_thickness, elastic};
+    if (!energy.coupled) {
+        const Number& potential = sheet.by_concentration;
+        const Number turning = (-energy_second_moment * p.epsilon) * around.scaled * w.value * potential * along;
+        row[normal_force].r = row[normal_force].r - turning * p.normal_z;
+        row[normal_force].z += turning * p.normal_r;
+        return {w.kept * potential, w.value * potential, by_thickness, sheet};
+    }
 
     const Number line = 2.0 * w.value * elastic.by_squared_gradient * along, turning = line * p.inverse_gradient;
     const Number by_r = turning * (c.z - along * p.normal_r), by_z = -1.0 * turning * (c.r + along * p.normal_z);
@@ -73,7 +89,7 @@ BendingForces<Number> add_bending(const Fields<Number>& x, const PointGeometry<N
     const Number& mu = x[molecule_potential].value;
     row[molecule_potential] = {(w.value + surface_floor / p.epsilon) * mu - w.value * elastic.by_concentration,
                                line * p.normal_z, -1.0 * line * p.normal_r};
-    return {w.kept * mu, by_thickness, elastic};
+    return {w.kept * mu, w.value * mu, by_thickness, sheet};
 }
 
 }  // namespace endoflow::phasefield::production

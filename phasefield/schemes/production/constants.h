@@ -21,6 +21,7 @@ inline constexpr Constant constants[] = {
     {"surface_floor", 1.2e-8, "1/ε", "added to δ, so that G, μ and s are defined everywhere"},
     {"largest_sheet_bend", 0.5, "", "of κψ, by which the sheet at the distance ψ is longer than the membrane"},
     {"moment_floor", 3.33e-5, "ε", "continues b smoothly where the energy has no weight"},
+    {"steepest_sheets", 0.25, "", "ε over the radius around the axis at most, where the energy accounts for it"},
     {"gradient_floor", 1e-3, "", "of |∇ψ| in the normal"},
     {"concentration_margin", 0.05, "", "how far beyond 0 and 1 the laws see c"},
     {"force_alignment", 20, "ε²", "keeps G constant along the normal"},

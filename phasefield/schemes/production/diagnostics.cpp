@@ -46,7 +46,9 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
             const auto sheet = sheet_gradient(distance_here, thickness);
             const double length = std::hypot(sheet.r, sheet.z, gradient_floor);
             const double slope = (c.z[q] * sheet.r - c.r[q] * sheet.z) / length;
-            const auto elastic = elastic_state_at(energy, b.value[q], c.value[q], slope);
+            const auto state = sheet_state(energy, b.value[q], c.value[q], slope,
+                                           sheet_curvature(psi.r[q], r, epsilon).scaled, epsilon);
+            const auto& elastic = state.elastic;
             const double nu = layer_viscosity(layer.phi, step.fluid, step.weight, numerics.viscosity_mean);
             const double hoop = ur.value[q] / r, shear = ur.z[q] + uz.r[q];
             const double stretching =
@@ -64,7 +66,7 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
             diagnostics.tension_power += w * (density * lambda.value[q] * stretching -
                                               layer.delta * layer_pressure.value[q] * (ur.r[q] + hoop + uz.z[q]));
             // δ(E + E_c)/δc where the energy is coupled.
-            const double potential = energy.coupled ? mu.value[q] : elastic.by_concentration;
+            const double potential = energy.coupled ? mu.value[q] : state.by_concentration;
             if (energy.coupled) {
                 const double line =
                     w * weight.value * energy.edge.density(elastic.curvature, c.value[q], slope * slope).value;
@@ -75,7 +77,7 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
             }
             if (!step.exchange.none()) {
                 const double coming = step.exchange.rate<double>(
-                    c.value[q], bending_by_concentration(energy, elastic, c.value[q]), step.molecules);
+                    c.value[q], bending_by_concentration(energy, state, c.value[q]), step.molecules);
                 diagnostics.exchange_rate += w * density * coming;
                 diagnostics.exchange_power += w * density * coming * potential;
             }

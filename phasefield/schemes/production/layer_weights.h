@@ -12,8 +12,8 @@ namespace endoflow::phasefield::production {
 
 // Functions of ψ across the layer: its profile, the membrane's weight δ_m and its integral, the energy's weight.
 
-inline constexpr double weight_cut = constant("weight_cut");
-inline const double energy_norm = cut_norm({});  // 1/∫ δ²/(δ + f) dψ
+inline const double energy_norm = cut_norm();                           // 1/∫ δ²/(δ + f) dψ
+inline const double energy_second_moment = energy_norm * cut_moment();  // ∫ ψ² δ_E dψ [ε²]
 
 /// φ, δ, δ' and the rest that only depend on ψ.
 template <class Number>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "shared/numerics/root.h"
@@ -112,14 +113,39 @@ MembraneWeight quadratic_weight(const FluidParameters& fluid, ViscosityMean mean
     return weight_of(zero_of(excess, lowest, 0.0), 0);
 }
 
+double integral_over_half(const std::function<double(double)>& integrand) {
+    return boost::math::quadrature::tanh_sinh<double>().integrate(integrand, 0.0, 1.0);
+}
+
+/// What is kept of a weight by a cut at f.
+double kept(double phi, double f) {
+    const double squared = (1 - phi * phi) * (1 - phi * phi);
+    return squared / (squared + f);
+}
+
+/// dψ δ over dφ, what the energy's weight keeps of it.
+double energy_part(double phi) {
+    return 0.75 * (1 - phi * phi) * kept(phi, tail_cut);
+}
+
 }  // namespace
 
+double cut_moment() {
+    return 2 * integral_over_half([](double phi) {  // ψ² = 2 ε² atanh² φ
+               const double distance = std::atanh(std::min(phi, nearly_one));
+               return 2 * distance * distance * energy_part(phi);
+           });
+}
+
+double cut_norm() {
+    return 0.5 / integral_over_half(energy_part);
+}
+
 double cut_norm(const MembraneWeight& weight) {
-    const auto integrand = [&](double phi) {  // dH_m/dφ times the part that is kept
-        const double phi2 = phi * phi, well = 1 - phi2, kept = well * well / (well * well + tail_cut);
-        return 0.75 * well * (weight.constant + phi2 * (weight.square + phi2 * weight.fourth)) * kept;
-    };
-    return 0.5 / boost::math::quadrature::tanh_sinh<double>().integrate(integrand, 0.0, 1.0);
+    return 0.5 / integral_over_half([&](double phi) {
+               const double phi2 = phi * phi, factor = weight.constant + phi2 * (weight.square + phi2 * weight.fourth);
+               return energy_part(phi) * factor * kept(phi, weight_cut);
+           });
 }
 
 ExcessShear excess_shear(const MembraneWeight& weight, const FluidParameters& fluid, ViscosityMean mean) {

@@ -8,15 +8,25 @@ namespace endoflow::phasefield::production {
 /// The weight δ_m = δ (a + b φ² + c φ⁴) of what lives on the membrane, a = 1 − b/5 − 3c/35 so that ∫δ_m dψ = 1.
 struct MembraneWeight {
     double constant = 1, square = 0, fourth = 0;  // a, b, c
-    double cut = 1;                               // 1/∫ δ_m δ/(δ + f) dψ
+    double cut = 1;                               // cut_norm of it
 };
 
 /// f of what is cut off in the tails, δ → δ²/(δ + f), as part of max δ: 4 ε from the membrane normals may cross, and
 /// forces there make Newton's method fail.
 inline constexpr double tail_cut = constant("tail_cut");
 
-/// 1/∫ δ_m δ/(δ + f) dψ, so that the integral over the layer stays one.
+/// The same for δ_m, as part of its largest value: beyond, alignment along the normals decides alone.
+inline constexpr double weight_cut = constant("weight_cut");
+
+/// 1/∫ δ²/(δ + f) dψ, so that the energy's weight integrates to one.
+double cut_norm();
+
+/// 1/∫ δ_m δ/(δ + f) dψ with δ_m as it is, its own tails cut off: the force on molecules has this weight, and the force
+/// on the membrane that it cancels with in the net force the energy's. Off by 4e-4, the difference is 0.3 pN.
 double cut_norm(const MembraneWeight& weight);
+
+/// ∫ ψ² δ²/(δ + f) dψ [ε²].
+double cut_moment();
 
 /// H_m(φ) with dH_m/dψ = δ_m: −½ … ½, and a little beyond within the layer.
 template <class Number>

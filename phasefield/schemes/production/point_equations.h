@@ -29,12 +29,12 @@ Fields<Number> point_equations(const Fields<Number>& x, double r, const PointPas
                                const StepNumbers& step, const LayerEnergy& energy) {
     const PointGeometry<Number> p = point_geometry(x[distance], past.thickness, step.weight);
     Fields<Number> row;
-    const BendingForces<Number> force = add_bending(x, p, energy, past, change, row);
+    const BendingForces<Number> force = add_bending(x, p, energy, r, past, change, row);
     add_flow(x, p, force, r, past, change, step, row);
     add_inextensibility(x, p, past, r, step, row);
     add_motion(x, p, past, step, row);
     add_molecules(x, p, past, change, step, energy, row);
-    add_exchange(x, p, force.elastic, step, energy, row);
+    add_exchange(x, p, force.sheet, step, energy, row);
     add_stretching(x, p, past, step, row);
     return row;
 }

@@ -99,11 +99,11 @@ void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, cons
 
 /// Molecules that come from outside and leave, δ_m j.
 template <class Number>
-void add_exchange(const Fields<Number>& x, const PointGeometry<Number>& p, const ElasticState<Number>& elastic,
+void add_exchange(const Fields<Number>& x, const PointGeometry<Number>& p, const SheetState<Number>& sheet,
                   const StepNumbers& step, const LayerEnergy& energy, Fields<Number>& row) {
     if (step.exchange.none()) return;
     const Number& c = x[molecule_density].value;
-    const Number rate = step.exchange.rate<Number>(c, bending_by_concentration(energy, elastic, c), step.molecules);
+    const Number rate = step.exchange.rate<Number>(c, bending_by_concentration(energy, sheet, c), step.molecules);
     row[molecule_density].value = row[molecule_density].value - p.density * rate;
 }
 
