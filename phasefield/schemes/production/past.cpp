@@ -60,7 +60,7 @@ class PastFields {
         cell->get_dof_values(history_->solutions->front(), values_);
         field(distance, box, psi_);
         cell->get_dof_values(*history_->extrapolated, values_);
-        field(distance, box, predicted_);
+        field(distance, box, predicted_, Derivatives::second);
         for (std::size_t q = 0; q < points.size(); ++q) {
             const double well = layer_profile(psi_.value[q], points[q].thickness.value).squared_well;
             const auto& x = quadrature_->point(static_cast<unsigned int>(q));
@@ -71,15 +71,17 @@ class PastFields {
             };
             if (step_->pole_force && well > loaded_layer)
                 points[q].pole_force = step_->pole_force->at(box.r0 + box.hr * x[0], box.z0 + box.hz * x[1]);
+            const double around = predicted_.r[q] / (box.r0 + box.hr * x[0]);
+            points[q].metric = sheet_metric(predicted_.value[q], around, predicted_.rr[q] + predicted_.zz[q] + around);
             points[q].normal = normal(predicted_.r[q], predicted_.z[q], last_normal_below);
             points[q].molecules_normal = normal(ahead_r_[q], ahead_z_[q], last_molecules_normal_below);
         }
     }
 
   private:
-    void field(unsigned int component, const CellBox& box, ScalarField& out) {
+    void field(unsigned int component, const CellBox& box, ScalarField& out, Derivatives wanted = Derivatives::first) {
         component_values(*space_, component, values_, coefficients_);
-        evaluate(bases_.at(space_->degrees[component]), box, coefficients_, Derivatives::first, out);
+        evaluate(bases_.at(space_->degrees[component]), box, coefficients_, wanted, out);
     }
 
     void add_past(const CellBox& box, double weight, double ahead, std::vector<PointPast>& points) {

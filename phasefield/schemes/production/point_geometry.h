@@ -28,15 +28,15 @@ struct PointPast {
     Direction molecules_normal;       // the same with the error of BDF, for c
     double slope_r = 0, slope_z = 0;  // ∇Σ_j a_j ψ(t_j)
     PointThickness thickness;         // ε, the same for all times
+    double metric = 1;                // sheet_metric
     double pole_force = 0;            // along z, per area of membrane [pN/nm²]
 };
 
-/// What the equations need of ψ's second derivatives: n·∇∇ψ with the predicted n, how ∇ψ changes along the normal, 0
-/// where ψ is a distance, Δψ [1/nm], and sheet_metric. The Jacobian holds all fixed.
+/// What the equations need of ψ's second derivatives [1/nm]: n·∇∇ψ with the predicted n, how ∇ψ changes along the
+/// normal, 0 where ψ is a distance, and Δψ. The Jacobian holds both fixed.
 struct GradientChange {
     double r = 0, z = 0;
     double laplacian = 0;
-    double metric = 1;
 };
 
 /// (1 + κ₁ψ)/(1 + κ₂ψ), κ₁ and κ₂ the membrane's curvatures along the meridian and around the axis: the sheet at the

@@ -72,8 +72,7 @@ void add_redistribution(const Number& c, const AtPoint<Number>& s, const PointGe
 /// meet.
 template <class Number>
 void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, const PointPast& past,
-                   const GradientChange& change, const StepNumbers& step, const LayerEnergy& energy,
-                   Fields<Number>& row) {
+                   const StepNumbers& step, const LayerEnergy& energy, Fields<Number>& row) {
     const auto &c = x[molecule_density], &mu = x[molecule_potential];
     add_transport(c.value, x, p, past, past.molecules, step, row[molecule_density]);
     const Number phi2 = p.layer.phi * p.layer.phi, weight = cut_density(p.layer);
@@ -82,7 +81,7 @@ void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     add_diffusion(c, step.rates.molecule_leak * (phi2 * phi2), row[molecule_density]);
     if (step.inextensible) add_redistribution(c.value, x[membrane_stretch], p, weight, step, row[molecule_density]);
     const TransportLaw& law = step.transport;
-    const double metric = energy.coupled ? 1 : change.metric;  // a coupled energy has the sheets' own gradients
+    const double metric = energy.coupled ? 1 : past.metric;  // a coupled energy has the sheets' own gradients
     const ValueAndDerivatives local = law.potential(value_of(c.value));
     if (law.edge_width > 0) {
         add_surface_diffusion<Number>(mu, metric * law.mobility * weight, p, row[molecule_density]);
