@@ -131,7 +131,8 @@ def draw(rows):
         area = row["area_nm2"]
         if area is None:
             label = axes.get_yaxis_transform()
-            axes.text(0.99, place, row["state"][:60], transform=label, ha="right", va="center", color="#777777")
+            short = ":".join(row["state"].split(":")[:2])
+            axes.text(0.02, place, short, transform=label, va="center", color="#777777")
             continue
         if before is None:
             axes.plot(area, place, "o", color="#333333")
@@ -143,6 +144,7 @@ def draw(rows):
     axes.axvline(PAPER_AREA, color="#333333", linestyle=":")
     axes.set_yticks(range(len(rows)), [row["change"] for row in rows])
     axes.invert_yaxis()
+    axes.use_sticky_edges = False  # bars would hold the limits where they end
     axes.margins(x=0.3)
     axes.set_xlabel(f"membrane area at {rows[0]['time_us']:g} µs (nm²); dotted: the paper's average")
     return figure
