@@ -199,6 +199,15 @@ class PhaseField(AnyEngine, unittest.TestCase):
         self.assert_goes_on("time.end=4e-5", "output.shape_interval=6e-6")
         np.testing.assert_allclose(self.shape_times(), [0, 2e-5, 2.4e-5, 3e-5, 3.6e-5, 4e-5], rtol=1e-12)
 
+    def test_directory_of_a_long_name(self):
+        """MPI's own file beside the checkpoint's would have a name beyond its buffer."""
+        self.directory = self.directory / ("a" * 140) / ("b" * 140)
+        self.directory.mkdir(parents=True)
+        process = self.start("time.end=2e-5")
+        _, errors = process.communicate(timeout=1200)
+        self.assertEqual((process.returncode, errors), (0, ""))
+        self.assert_goes_on("time.end=4e-5")
+
     def test_disk_full_while_vectors_are_written(self):
         """The saved vectors are by far the largest file, and are written by MPI, which says nothing."""
         process = self.start("time.end=5")
