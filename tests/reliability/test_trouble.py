@@ -93,10 +93,12 @@ class AnyEngine:
         for word in words:
             self.assertIn(word, errors.splitlines()[-1])
 
-    def assert_goes_on(self, *settings):
-        process = self.start(*settings, restart=True)
+    def assert_finishes(self, process):
         _, errors = process.communicate(timeout=1200)
         self.assertEqual((process.returncode, errors), (0, ""))
+
+    def assert_goes_on(self, *settings):
+        self.assert_finishes(self.start(*settings, restart=True))
 
     def assert_goes_on_from_its_history(self):
         last_row = (self.directory / "history.csv").read_text().splitlines()[-1]
@@ -171,8 +173,7 @@ class BoundaryIntegral(AnyEngine, unittest.TestCase):
         process = self.start("time.end=0.01")
         self.wait_for_rows(process, 1)
         with h5py.File(self.directory / "shapes.h5", "r"):
-            _, errors = process.communicate(timeout=1200)
-        self.assertEqual((process.returncode, errors), (0, ""))
+            self.assert_finishes(process)
         with h5py.File(self.directory / "shapes.h5", "r") as file:
             self.assertEqual(len(file["shapes"]), 21 + 8)  # and eight before the first multiple
 
@@ -203,9 +204,7 @@ class PhaseField(AnyEngine, unittest.TestCase):
         """MPI's own file beside the checkpoint's would have a name beyond its buffer."""
         self.directory = self.directory / ("a" * 140) / ("b" * 140)
         self.directory.mkdir(parents=True)
-        process = self.start("time.end=2e-5")
-        _, errors = process.communicate(timeout=1200)
-        self.assertEqual((process.returncode, errors), (0, ""))
+        self.assert_finishes(self.start("time.end=2e-5"))
         self.assert_goes_on("time.end=4e-5")
 
     def test_disk_full_while_vectors_are_written(self):

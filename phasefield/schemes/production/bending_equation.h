@@ -32,8 +32,9 @@ struct BendingForces {
 /// That sheets on both sides of a curved membrane have together a larger area than the membrane is accounted for in e*
 /// (sheet_state): E is that of the sharp membrane up to ε⁴. So is its variation at constant c, but that is not the one
 /// of the sharp membrane, which takes its molecules with it: where a motion χ turns the normals by t·∇χ, the sheets'
-/// molecules, at rest in space, lag behind by ψ t·∇χ, and of E that is M₂ κ₂ (∂e/∂c) t·∇c t·∇χ. Without it G would be
-/// off by ε², and the layer would exert a net force. A coupled energy's ∂E/∂c is taken as it is, with all of E.
+/// molecules, at rest in space, lag behind by ψ t·∇χ, and of E's change M₂ κ₂ (∂e/∂c) t·∇c t·∇χ, κ₂ = ψ_r/r, is theirs.
+/// It is taken off: else G would be off by ε², and the layer would exert a net force. A coupled energy's ∂E/∂c is taken
+/// as it is, with all of E.
 ///
 /// E depends on ε, too. The fluid feels E_ε ∇ε, E_ε = ∂E/∂ε at given ψ, b and c, as it feels e ∇c: then what translates
 /// membrane, molecules and thickness together changes no energy, and the layer exerts no net force of its own.
@@ -75,9 +76,9 @@ BendingForces<Number> add_bending(const Fields<Number>& x, const PointGeometry<N
                                 compliance * (0.5 * w.thickness + (1 / p.epsilon) * w.value) * slope * slope;
     if (!energy.coupled) {
         const Number& potential = sheet.by_concentration;
-        const Number turning = (-energy_second_moment * p.epsilon) * around.scaled * w.value * potential * along;
-        row[normal_force].r = row[normal_force].r - turning * p.normal_z;
-        row[normal_force].z += turning * p.normal_r;
+        const Number lag = (-energy_second_moment * p.epsilon) * around.scaled * w.value * potential * along;
+        row[normal_force].r = row[normal_force].r - lag * p.normal_z;
+        row[normal_force].z += lag * p.normal_r;
         return {w.kept * potential, w.value * potential, by_thickness, sheet};
     }
 

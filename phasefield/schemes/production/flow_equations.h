@@ -12,14 +12,13 @@ inline constexpr double uneven_fade = constant("uneven_fade");
 /// Along the sheets e ∇c and the tension it is balanced by have one weight; where c's level lines are off the normal,
 /// the part across is that of the energy, w, or the two would not cancel in the net force, 1 pN of which is a per cent
 /// of the flow. Of the loads, the pressure Δp acts as the normal force −Δp of the fluid that it is taken off of: p is
-/// less than the pressure by Δp (½
-/// + H_m), so that walls are free of stress. The pole force is one of the forces, the rim's tension acts at the
-/// boundary. The diffusion of G along the normal would leave a net force on the membrane where ∇ψ changes along it, D δ
-/// ∂ₙG ∂ₙ∇ψ, which is added. With ∂ₙ∇ψ of an extrapolated ψ, whose tails the layer has reached after a step of ε, some
-/// pN would remain. The force's work is nobody's loss: where layers meet and ψ is no distance it would pump, so it
-/// fades there. The pressure in the layer is p + δ q, q constant along the normal the multiplier of ∫δ ∇·u across the
-/// layer: p alone, continuous and quadratic, cannot follow δ on cells as wide as the layer, and the rest would drive a
-/// spurious flow.
+/// less than the pressure by Δp (½ + H_m), so that walls are free of stress. The pole force is one of the forces, the
+/// rim's tension acts at the boundary. The diffusion of G along the normal would leave a net force on the membrane
+/// where ∇ψ changes along it, D δ ∂ₙG ∂ₙ∇ψ, which is added. With ∂ₙ∇ψ of an extrapolated ψ, whose tails the layer has
+/// reached after a step of ε, some pN would remain. The force's work is nobody's loss: where layers meet and ψ is no
+/// distance it would pump, so it fades there. The pressure in the layer is p + δ q, q constant along the normal the
+/// multiplier of ∫δ ∇·u across the layer: p alone, continuous and quadratic, cannot follow δ on cells as wide as the
+/// layer, and the rest would drive a spurious flow.
 template <class Number>
 void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const BendingForces<Number>& force, double r,
               const PointPast& past, const GradientChange& change, const StepNumbers& step, Fields<Number>& row) {

@@ -63,11 +63,9 @@ struct SheetCurvature {
 template <class Number>
 SheetCurvature<Number> sheet_curvature(const Number& psi_r, double r, double epsilon) {
     const Number y = (-epsilon / r) * psi_r;
-    const double relative = value_of(y) / steepest_sheets, seventh = std::pow(relative, 7), eighth = relative * seventh;
-    const double f = std::pow(1 + eighth, -0.125), first = f / (1 + eighth);
-    const double second = -9 * first * seventh / ((1 + eighth) * steepest_sheets);
-    const Number slope = chain(y, first, second);
-    return {chain(y, f * value_of(y), first), (-epsilon / r) * slope, (1 / epsilon) * (slope * y)};
+    const ValueAndDerivatives limited = bounded(value_of(y), steepest_sheets);
+    const Number slope = chain(y, limited.first, limited.second);
+    return {chain(y, limited.value, limited.first), (-epsilon / r) * slope, (1 / epsilon) * (slope * y)};
 }
 
 /// The membrane's elastic state as one sheet of the layer sees it.

@@ -6,16 +6,21 @@ namespace {
 
 constexpr double largest_sheet_bend = constant("largest_sheet_bend");
 
-/// x, smoothly kept below the bound.
-double bounded(double x) {
-    const double relative = x / largest_sheet_bend;
-    return x * std::pow(1 + std::pow(relative, 8), -0.125);
+/// The inverse of 1 + κψ from a sheet's own curvature.
+double inverse_stretch(double curvature, double psi) {
+    return 1 - bounded(curvature * psi, largest_sheet_bend).value;
 }
 
 }  // namespace
 
+ValueAndDerivatives bounded(double x, double bound) {
+    const double relative = x / bound, seventh = std::pow(relative, 7), eighth = relative * seventh;
+    const double factor = std::pow(1 + eighth, -0.125), first = factor / (1 + eighth);
+    return {factor * x, first, -9 * first * seventh / ((1 + eighth) * bound)};
+}
+
 double sheet_metric(double psi, double around, double laplacian) {
-    return (1 - bounded(around * psi)) / (1 - bounded((laplacian - around) * psi));
+    return inverse_stretch(around, psi) / inverse_stretch(laplacian - around, psi);
 }
 
 }  // namespace endoflow::phasefield::production

@@ -7,6 +7,7 @@
 #include "phasefield/schemes/production/fields.h"
 #include "phasefield/schemes/production/layer_weights.h"
 #include "phasefield/schemes/production/step_numbers.h"
+#include "shared/model/bending_model.h"
 #include "shared/numerics/forward.h"
 
 namespace endoflow::phasefield::production {
@@ -38,6 +39,9 @@ struct GradientChange {
     double r = 0, z = 0;
     double laplacian = 0;
 };
+
+/// x (1 + (x/bound)⁸)^(−1/8): smoothly below the bound, and x up to (x/bound)⁸/8 of itself.
+ValueAndDerivatives bounded(double x, double bound);
 
 /// (1 + κ₁ψ)/(1 + κ₂ψ), κ₁ and κ₂ the membrane's curvatures along the meridian and around the axis: the sheet at the
 /// distance ψ has arcs 1 + κ₁ψ times and circles 1 + κ₂ψ times as long as the membrane. From the sheet's own curvatures
