@@ -100,7 +100,6 @@ int run(int argc, char** argv, int rank, int processes) {
     if (!request) return 0;
     if (request->parameters.phase_field.scheme == PhaseFieldScheme::paper)
         require_no_loads(request->parameters, "phase-field (scheme paper)");
-    require_no_coupling(request->parameters, "phase-field");
     install_signal_handlers();
     const auto output = open_output(*request, rank, processes);
     if (!output) return 0;

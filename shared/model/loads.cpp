@@ -9,13 +9,9 @@ void require_no_loads(const Parameters& parameters, const std::string& engine) {
     if (!loads_of(parameters).none())
         throw InputError("membrane.rim_tension, membrane.pole_force and fluid.pressure_difference must be 0: the " +
                          engine + " engine does not have them");
-    require_no_coupling(parameters, engine);
+    if (parameters.molecules.coupling != Coupling::none)
+        throw InputError("molecules.coupling must be none: the " + engine + " engine does not have another one");
     require_no_exchange(parameters, engine);
-}
-
-void require_no_coupling(const Parameters& parameters, const std::string& engine) {
-    if (parameters.molecules.coupling == Coupling::none) return;
-    throw InputError("molecules.coupling must be none: the " + engine + " engine does not have another one");
 }
 
 }  // namespace endoflow

@@ -41,9 +41,6 @@ struct Loads {
 /// asks for.
 void require_no_loads(const Parameters& parameters, const std::string& engine);
 
-/// The same for an engine that has the loads.
-void require_no_coupling(const Parameters& parameters, const std::string& engine);
-
 [[nodiscard]] inline Loads loads_of(const Parameters& parameters) {
     return {parameters.membrane.rim_tension, parameters.fluid.pressure_difference, parameters.membrane.pole_force,
             parameters.membrane.pole_force_width};

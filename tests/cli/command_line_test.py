@@ -92,7 +92,7 @@ class CommandLine(CommandLineTest):
         growth = '[molecules]\nexchange = "edge"\nedge_speed = 1e-3\n'
         paper = ("--set", "phase_field.scheme=paper")
         for engine, text, options, words in (
-            (("run", "phase-field"), coupling, (), ("molecules.coupling must be none", "phase-field engine")),
+            (("run", "phase-field"), coupling, paper, ("molecules.coupling must be none", "scheme paper")),
             (("run", "phase-field"), "[membrane]\nrim_tension = 0.1\n", paper, ("membrane.rim_tension", "scheme paper")),
             (("run", "phase-field"), growth, paper, ("molecules.exchange", "scheme paper")),
             (("statics",), growth, (), ("molecules.exchange", "statics engine")),

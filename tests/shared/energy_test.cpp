@@ -131,5 +131,4 @@ TEST_CASE("an engine without energetic coupling refuses it") {
     parameters.molecules.coupling = Coupling::energetic;
     parameters.molecules.line_energy = 20;
     CHECK_THROWS_AS(require_no_loads(parameters, "phase-field"), InputError);
-    CHECK_THROWS_AS(require_no_coupling(parameters, "boundary-integral"), InputError);
 }

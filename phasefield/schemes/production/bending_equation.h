@@ -8,7 +8,7 @@ namespace endoflow::phasefield::production {
 template <class Number>
 struct BendingForces {
     Number along, across;  // ∂e/∂c or μ: along the sheets cut off in the tails [pN/nm], across with δ_E [pN/nm²]
-    Number by_thickness;   // E_ε per volume [pN/nm³]
+    Number of_thickness;   // E_ε ∂ε/∂ψ per volume, along ∇ψ [pN/nm³]
     SheetState<Number> sheet;
 };
 
@@ -26,8 +26,10 @@ struct BendingForces {
 /// would drive a flow within the layer that the relaxation undoes all the time.
 ///
 /// An energy that knows the gradient along the sheets, t·∇c, has ∂E/∂c with a divergence in it: μ is then the field
-/// whose row this is, w μ = ∂E/∂c, and takes the place of ∂e/∂c in the force. The sheets' direction depends on ψ; what
-/// that adds to G vanishes where c is constant along the normal.
+/// whose row this is, w μ = ∂E/∂c, and takes the place of ∂e/∂c in the force. On sheets of other lengths it would be
+/// another one, and molecules that are constant along the normal are driven by its mean: it is kept constant there,
+/// without which what it does across the layer and in its tails would dissipate a tenth of the fluid's power. The
+/// sheets' direction depends on ψ; what that adds to G vanishes where c is constant along the normal.
 ///
 /// That sheets on both sides of a curved membrane have together a larger area than the membrane is accounted for in e*
 /// (sheet_state): E is that of the sharp membrane up to ε⁴. So is its variation at constant c, but that is not the one
@@ -36,8 +38,12 @@ struct BendingForces {
 /// It is taken off: else G would be off by ε², and the layer would exert a net force. A coupled energy's ∂E/∂c is taken
 /// as it is, with all of E.
 ///
-/// E depends on ε, too. The fluid feels E_ε ∇ε, E_ε = ∂E/∂ε at given ψ, b and c, as it feels e ∇c: then what translates
-/// membrane, molecules and thickness together changes no energy, and the layer exerts no net force of its own.
+/// The thickness turns with the normals, too: where χ turns them, ε at the distance ψ lags behind by ψ ∂ₜε ∂ₜχ, ∂ₜ
+/// along the sheets and arcs measured on the membrane, and of E's change E_ε = ∂E/∂ε at given ψ, b and c times that is
+/// taken off. E, which is that of the sharp membrane whatever ε, then exerts no force by ∇ε along the membrane. (E_ε ∇ε
+/// on the fluid would balance the row without that, but E_ε, whose sum across the layer vanishes, is of either sign
+/// there: it would shear the layer, and a membrane that cannot stretch would slip, and swim.) As far as ε, interpolated
+/// in cells, is not constant along the normal E_ε ∂ε/∂ψ ∇ψ is left.
 template <class Number>
 BendingForces<Number> add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const LayerEnergy& energy,
                                   double r, const PointPast& past, const GradientChange& change, Fields<Number>& row) {
@@ -74,12 +80,16 @@ BendingForces<Number> add_bending(const Fields<Number>& x, const PointGeometry<N
                                 w.thickness_1 * b.value * (1.0 - mean) -
                                 w.value * (sheet.by_thickness + sheet.by_curvature * around.by_thickness) -
                                 compliance * (0.5 * w.thickness + (1 / p.epsilon) * w.value) * slope * slope;
+    const Number across = thinning / (p.squared_gradient + gradient_floor * gradient_floor);
+    const Number turned = past.arc * psi.value * by_thickness, of_thickness = by_thickness * across;
+    row[normal_force].r += turned * (thickness.r - across * psi.r);
+    row[normal_force].z += turned * (thickness.z - across * psi.z);
     if (!energy.coupled) {
         const Number& potential = sheet.by_concentration;
         const Number lag = (-energy_second_moment * p.epsilon) * around.scaled * w.value * potential * along;
         row[normal_force].r = row[normal_force].r - lag * p.normal_z;
         row[normal_force].z += lag * p.normal_r;
-        return {w.kept * potential, w.value * potential, by_thickness, sheet};
+        return {w.kept * potential, w.value * potential, of_thickness, sheet};
     }
 
     const Number line = 2.0 * w.value * elastic.by_squared_gradient * along, turning = line * p.inverse_gradient;
@@ -90,7 +100,9 @@ BendingForces<Number> add_bending(const Fields<Number>& x, const PointGeometry<N
     const Number& mu = x[molecule_potential].value;
     row[molecule_potential] = {(w.value + surface_floor / p.epsilon) * mu - w.value * elastic.by_concentration,
                                line * p.normal_z, -1.0 * line * p.normal_r};
-    return {w.kept * mu, w.value * mu, by_thickness, sheet};
+    add_alignment(x[molecule_potential], past.normal, (potential_alignment * p.epsilon * p.epsilon) * w.value,
+                  row[molecule_potential]);
+    return {w.kept * mu, w.value * mu, of_thickness, sheet};
 }
 
 }  // namespace endoflow::phasefield::production

@@ -73,7 +73,7 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
                 diagnostics.line_energy += line;
                 diagnostics.bending_energy -= line;
                 const double driven = (mu.z[q] * sheet.r - mu.r[q] * sheet.z) / length;
-                diagnostics.molecule_dissipation += w * step.transport.mobility * cut_density(layer) * driven * driven;
+                diagnostics.molecule_dissipation += w * step.transport.mobility * weight.value * driven * driven;
             }
             if (!step.exchange.none()) {
                 const double coming = step.exchange.rate<double>(

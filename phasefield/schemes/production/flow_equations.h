@@ -6,39 +6,36 @@
 
 namespace endoflow::phasefield::production {
 
-inline constexpr double uneven_fade = constant("uneven_fade");
-
-/// (32), (33): momentum with the forces δ_m (G ∇ψ + e (∇c − n n·∇c)) + w e n n·∇c + E_ε ∇ε − ∇·(δ_m λ P), and volume.
-/// Along the sheets e ∇c and the tension it is balanced by have one weight; where c's level lines are off the normal,
-/// the part across is that of the energy, w, or the two would not cancel in the net force, 1 pN of which is a per cent
-/// of the flow. Of the loads, the pressure Δp acts as the normal force −Δp of the fluid that it is taken off of: p is
-/// less than the pressure by Δp (½ + H_m), so that walls are free of stress. The pole force is one of the forces, the
-/// rim's tension acts at the boundary. The diffusion of G along the normal would leave a net force on the membrane
-/// where ∇ψ changes along it, D δ ∂ₙG ∂ₙ∇ψ, which is added. With ∂ₙ∇ψ of an extrapolated ψ, whose tails the layer has
-/// reached after a step of ε, some pN would remain. The force's work is nobody's loss: where layers meet and ψ is no
-/// distance it would pump, so it fades there. The pressure in the layer is p + δ q, q constant along the normal the
-/// multiplier of ∫δ ∇·u across the layer: p alone, continuous and quadratic, cannot follow δ on cells as wide as the
-/// layer, and the rest would drive a spurious flow.
+/// (32), (33): momentum with the forces δ_m (G ∇ψ + e (∇c − n n·∇c)) + w e n n·∇c + E_ε n n·∇ε − ∇·(δ_m λ P), and
+/// volume. Along the sheets e ∇c and the tension it is balanced by have one weight; where c's level lines are off the
+/// normal, the part across is that of the energy, w, or the two would not cancel in the net force, 1 pN of which is a
+/// per cent of the flow. Of the loads, the pressure Δp acts as the normal force −Δp of the fluid that it is taken off
+/// of: p is less than the pressure by Δp (½ + H_m), so that walls are free of stress. The pole force is one of the
+/// forces, the rim's tension acts at the boundary. The diffusion of G along the normal would leave a net force on the
+/// membrane where ∇ψ changes along it, D δ ∂ₙG ∂ₙ∇ψ, which is added. With ∂ₙ∇ψ of an extrapolated ψ, whose tails the
+/// layer has reached after a step of ε, some pN would remain. The force's work is nobody's loss: where layers meet and
+/// ψ is no distance it would pump, so it fades there. The pressure in the layer is p + δ q, q constant along the normal
+/// the multiplier of ∫δ ∇·u across the layer: p alone, continuous and quadratic, cannot follow δ on cells as wide as
+/// the layer, and the rest would drive a spurious flow.
 template <class Number>
 void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const BendingForces<Number>& force, double r,
               const PointPast& past, const GradientChange& change, const StepNumbers& step, Fields<Number>& row) {
     const auto &ur = x[velocity_r], &uz = x[velocity_z], &psi = x[distance], &c = x[molecule_density];
     const auto& G = x[normal_force];
     const Number g = p.density * (G.value - step.loads.pressure), molecular = step.weight.cut * p.density * force.along;
-    const Number tilted = (force.across - molecular) * (psi.r * c.r + psi.z * c.z) /
-                          (p.squared_gradient + gradient_floor * gradient_floor);
-    const double kink = uneven_fade * p.epsilon * std::hypot(change.r, change.z);
-    const Number uneven = (1 / (1 + kink * kink)) * force_diffusivity(p) * (past.normal.r * G.r + past.normal.z * G.z);
+    const Number across = force.of_thickness + (force.across - molecular) * (psi.r * c.r + psi.z * c.z) /
+                                                   (p.squared_gradient + gradient_floor * gradient_floor);
+    const Number uneven =
+        evenness(change, p.epsilon) * force_diffusivity(p) * (past.normal.r * G.r + past.normal.z * G.z);
     const Number nu = layer_viscosity(p.layer.phi, step.fluid, step.weight, step.numerics.viscosity_mean);
     const Number hoop = ur.value / r, divergence = ur.r + hoop + uz.z;
     const Number isotropic = x[pressure].value + p.layer.delta * x[pressure_layer].value;
     const Number stretch = p.density * x[tension].value;
     const Number shear = nu * (ur.z + uz.r) - stretch * p.normal_r * p.normal_z;
-    row[velocity_r] = {(2.0 * nu * hoop - isotropic + stretch) / r - g * psi.r - molecular * c.r - tilted * psi.r -
-                           uneven * change.r - past.thickness.r * force.by_thickness,
-                       2.0 * nu * ur.r - isotropic + stretch * (1.0 - p.normal_r * p.normal_r), shear};
-    row[velocity_z] = {-g * psi.z - molecular * c.z - tilted * psi.z - uneven * change.z -
-                           past.thickness.z * force.by_thickness - past.pole_force * p.density,
+    row[velocity_r] = {
+        (2.0 * nu * hoop - isotropic + stretch) / r - g * psi.r - molecular * c.r - across * psi.r - uneven * change.r,
+        2.0 * nu * ur.r - isotropic + stretch * (1.0 - p.normal_r * p.normal_r), shear};
+    row[velocity_z] = {-g * psi.z - molecular * c.z - across * psi.z - uneven * change.z - past.pole_force * p.density,
                        shear, 2.0 * nu * uz.z - isotropic + stretch * (1.0 - p.normal_z * p.normal_z)};
     if (step.fluid.inertia) {
         const double rho = step.fluid.density;

@@ -11,6 +11,7 @@ namespace endoflow::phasefield::production {
 
 inline constexpr double moment_floor = constant("moment_floor");
 inline constexpr double moment_alignment = constant("moment_alignment");
+inline constexpr double potential_alignment = constant("potential_alignment");
 inline constexpr double steepest_sheets = constant("steepest_sheets");
 
 /// The membrane's energy as the layer carries it, with what its equations ask for at every point.

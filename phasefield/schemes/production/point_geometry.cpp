@@ -19,8 +19,12 @@ ValueAndDerivatives bounded(double x, double bound) {
     return {factor * x, first, -9 * first * seventh / ((1 + eighth) * bound)};
 }
 
+double sheet_arc(double psi, double around, double laplacian) {
+    return 1 / inverse_stretch(laplacian - around, psi);
+}
+
 double sheet_metric(double psi, double around, double laplacian) {
-    return inverse_stretch(around, psi) / inverse_stretch(laplacian - around, psi);
+    return inverse_stretch(around, psi) * sheet_arc(psi, around, laplacian);
 }
 
 }  // namespace endoflow::phasefield::production

@@ -29,7 +29,8 @@ struct PointPast {
     Direction molecules_normal;       // the same with the error of BDF, for c
     double slope_r = 0, slope_z = 0;  // ∇Σ_j a_j ψ(t_j)
     PointThickness thickness;         // ε, the same for all times
-    double metric = 1;                // sheet_metric
+    double arc = 1, metric = 1;       // sheet_arc, sheet_metric
+    double even = 1;                  // evenness
     double pole_force = 0;            // along z, per area of membrane [pN/nm²]
 };
 
@@ -43,10 +44,21 @@ struct GradientChange {
 /// x (1 + (x/bound)⁸)^(−1/8): smoothly below the bound, and x up to (x/bound)⁸/8 of itself.
 ValueAndDerivatives bounded(double x, double bound);
 
-/// (1 + κ₁ψ)/(1 + κ₂ψ), κ₁ and κ₂ the membrane's curvatures along the meridian and around the axis: the sheet at the
-/// distance ψ has arcs 1 + κ₁ψ times and circles 1 + κ₂ψ times as long as the membrane. From the sheet's own curvatures
-/// κᵢ/(1 + κᵢψ): `around` = ψ_r/r, and their sum Δψ. Each κᵢψ is kept below largest_sheet_bend, for normals may cross.
+/// 1 + κ₁ψ, κ₁ the membrane's curvature along the meridian: by how much the arcs of the sheet at the distance ψ are
+/// longer than the membrane's. From the sheet's own curvatures κᵢ/(1 + κᵢψ): `around` the axis, ψ_r/r, and their sum
+/// Δψ. κ₁ψ is kept below largest_sheet_bend, for normals may cross.
+double sheet_arc(double psi, double around, double laplacian);
+
+/// (1 + κ₁ψ)/(1 + κ₂ψ), κ₂ the membrane's curvature around the axis, in which circles are longer. From the same.
 double sheet_metric(double psi, double around, double laplacian);
+
+inline constexpr double uneven_fade = constant("uneven_fade");
+
+/// 1 where ψ is a distance, little on the ridges where layers meet and normals turn round within a cell.
+inline double evenness(const GradientChange& change, double epsilon) {
+    const double kink = uneven_fade * epsilon * std::hypot(change.r, change.z);
+    return 1 / (1 + kink * kink);
+}
 
 inline constexpr double surface_floor = constant("surface_floor");
 inline constexpr double gradient_floor = constant("gradient_floor");
@@ -107,7 +119,9 @@ Number normal_part(const Direction& n, double n_own, const Number& own, double n
     return (1 - n.r * n.r - n.z * n.z + n_own * n_own) * own + (n_own * n_other) * other;
 }
 
-/// D_n ∇·(δ n n·∇y): keeps y constant along the normal, a predicted one, so that the term is linear.
+/// D_n ∇·(δ n n·∇y): keeps y constant along the normal, a predicted one, so that the term is linear. For what belongs
+/// to one membrane D_n holds the evenness: where the layers of bud and plane meet, molecules would change over, and
+/// tension.
 template <class Number>
 void add_alignment(const AtPoint<Number>& y, const Direction& n, const Number& diffusivity, AtPoint<Number>& row) {
     row.r += diffusivity * normal_part(n, n.r, y.r, n.z, y.z);
@@ -131,7 +145,7 @@ template <class Number>
 void extend_multiplier(const AtPoint<Number>& y, const PointGeometry<Number>& p, const PointPast& past,
                        double alignment, double leak, AtPoint<Number>& row) {
     const Number phi2 = p.layer.phi * p.layer.phi;
-    add_alignment(y, past.normal, -alignment * (p.layer.squared_well + alignment_floor), row);
+    add_alignment(y, past.normal, -alignment * past.even * (p.layer.squared_well + alignment_floor), row);
     add_diffusion(y, -leak * (phi2 * phi2), row);
 }
 

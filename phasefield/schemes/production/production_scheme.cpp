@@ -29,7 +29,6 @@ constexpr double almost_all = constant("almost_all");
 constexpr double tolerated_excess = constant("tolerated_excess");
 constexpr double newton_part = constant("newton_part");
 constexpr double smallest_step = constant("smallest_step");
-constexpr double relaxation_per_speed = constant("relaxation_per_speed");
 constexpr double largest_motion = constant("largest_motion");
 
 /// Largest error of the membrane's position per step [nm].
@@ -155,9 +154,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     foresee_thickness(tau);
     const auto bdf = bdf_coefficients(end, times_, order());
     numbers_.rate = bdf.rate;
-    numbers_.profile_relaxation = numbers_.rates.profile_relaxation;
-    if (since_start_ > 0)
-        numbers_.profile_relaxation = std::min(numbers_.profile_relaxation, relaxation_per_speed * speed_);
+    if (since_start_ > 0) numbers_.move_at(speed_);
     const std::size_t known = std::min(order() + 1, times_.size());
     const Vector predicted = polynomial(end, known);
     if (numbers_.loads.pole_force != 0)

@@ -34,6 +34,7 @@ SchemeRates scheme_rates(const Parameters& p) {
     rates.crowding = largest_crowding(p);
     rates.stretching_alignment = factors.stretching_alignment * speed * radius;
     rates.least_normal_diffusivity = constant("least_normal_diffusivity") * speed * std::pow(radius, 4);
+    rates.fast_membrane = constant("fast_membrane") * speed;
     rates.molecule_leak = constant("molecule_leak") * speed;
     rates.tension_alignment = factors.tension_alignment * fluidity;
     rates.tension_leak = factors.tension_leak * fluidity;

@@ -13,6 +13,7 @@ struct SchemeRates {
     double crowding = 0;                  // max |c ∂e/∂c| of the flat membrane over ν₁ + ν₂ [nm/µs]
     double stretching_alignment = 0;      // of s [nm²/µs]
     double least_normal_diffusivity = 0;  // of c, times ε³ [nm⁵/µs]
+    double fast_membrane = 0;             // from where on its shear asks for all of that [nm/µs]
     double molecule_leak = 0;             // of c [nm/µs]
     double tension_alignment = 0;         // of λ [nm²/(pN µs)]
     double tension_leak = 0;              // of λ and q [nm²/(pN µs)]

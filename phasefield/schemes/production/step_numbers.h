@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <memory>
 
+#include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/layer_thickness.h"
 #include "phasefield/schemes/production/membrane_weight.h"
 #include "phasefield/schemes/production/pole_force.h"
@@ -13,6 +16,9 @@
 #include "shared/parameters/parameters.h"
 
 namespace endoflow::phasefield::production {
+
+inline constexpr double relaxation_per_speed = constant("relaxation_per_speed");
+inline constexpr double slowest_alignment = constant("slowest_alignment");
 
 /// Numbers of one step.
 struct StepNumbers {
@@ -30,6 +36,13 @@ struct StepNumbers {
           profile_relaxation(rates.profile_relaxation),
           inextensible(p.membrane.inextensible) {}
 
+    /// Of a membrane as fast as this [nm/µs]; as long as nothing is known it is fast.
+    void move_at(double membrane_speed) {
+        speed = membrane_speed;
+        profile_relaxation = std::min(rates.profile_relaxation, relaxation_per_speed * speed);
+        molecules_alignment = std::clamp(speed / rates.fast_membrane, slowest_alignment, 1.0);
+    }
+
     double rate;  // a₀ [1/µs]
     PhaseFieldParameters numerics;
     FluidParameters fluid;
@@ -39,11 +52,13 @@ struct StepNumbers {
     Loads loads;
     MembraneWeight weight;
     SchemeRates rates;
-    double profile_relaxation;                         // M of this step [nm/µs]
-    bool inextensible;                                 // s is one but for what the tension leaves
-    double molecules = 0;                              // ∫ c dA, predicted [nm²]: what the pool has lost
-    std::shared_ptr<const CellThickness> thickness{};  // of the layer; none: uniform
-    std::shared_ptr<const PoleForce> pole_force{};     // none: zero
+    double speed = std::numeric_limits<double>::max();  // of the membrane [nm/µs]
+    double profile_relaxation;                          // M of this step [nm/µs]
+    double molecules_alignment = 1;                     // part of least_normal_diffusivity
+    bool inextensible;                                  // s is one but for what the tension leaves
+    double molecules = 0;                               // ∫ c dA, predicted [nm²]: what the pool has lost
+    std::shared_ptr<const CellThickness> thickness{};   // of the layer; none: uniform
+    std::shared_ptr<const PoleForce> pole_force{};      // none: zero
 
     /// ε at the point (x, y) of a unit cell.
     [[nodiscard]] PointThickness thickness_at(std::size_t active_cell, const CellBox& box, double x, double y) const {

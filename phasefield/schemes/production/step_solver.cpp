@@ -43,7 +43,7 @@ void StepSolver::reinit(const Space& space) {
 Vector StepSolver::factorise(const Problem& problem, const Vector& solution) {
     const auto& history = *problem.history;
     origin_ = {problem.numbers->rate,
-               problem.numbers->profile_relaxation,
+               problem.numbers->speed,
                problem.numbers->molecules,
                problem.numbers->thickness,
                problem.numbers->pole_force,
@@ -171,7 +171,7 @@ std::vector<const Vector*> StepSolver::save(Checkpoint& checkpoint) const {
         static_cast<double>(counts_.iterations), static_cast<double>(counts_.factorisations),
         static_cast<double>(counts_.of_double_precision), static_cast<double>(counts_.single_precision_failed)};
     checkpoint.scalars["factors_rate"] = origin_.rate;
-    checkpoint.scalars["factors_profile_relaxation"] = origin_.profile_relaxation;
+    checkpoint.scalars["factors_speed"] = origin_.speed;
     checkpoint.scalars["factors_molecules"] = origin_.molecules;
     save_thickness(origin_.thickness, "factors_thickness", checkpoint);
     if (origin_.pole_force) origin_.pole_force->save("factors_pole_force", checkpoint);
@@ -200,7 +200,7 @@ void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint&
 void StepSolver::factorise_again(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint,
                                  const std::vector<Vector>& vectors) {
     numbers.rate = checkpoint.scalar("factors_rate");
-    numbers.profile_relaxation = checkpoint.scalar("factors_profile_relaxation");
+    numbers.move_at(checkpoint.scalar("factors_speed"));
     numbers.thickness = thickness_on(space.dofs.get_triangulation(), load_thickness(checkpoint, "factors_thickness"));
     numbers.molecules = checkpoint.scalar("factors_molecules");
     numbers.pole_force = PoleForce::load(checkpoint, "factors_pole_force", numbers.loads);

@@ -55,7 +55,7 @@ class StepSolver {
 
     /// What the factors were made from.
     struct Origin {
-        double rate = 0, profile_relaxation = 0, molecules = 0;
+        double rate = 0, speed = 0, molecules = 0;
         std::shared_ptr<const CellThickness> thickness;
         std::shared_ptr<const PoleForce> pole_force;
         std::vector<double> weights, ahead;

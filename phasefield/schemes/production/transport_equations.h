@@ -7,7 +7,6 @@
 namespace endoflow::phasefield::production {
 
 inline constexpr double crowding_length = constant("crowding_length");
-inline constexpr double slowest_alignment = constant("slowest_alignment");
 
 /// ∂(δ_m y)/∂t + ∇·(δ_m y v), v the fluid's velocity along the membrane and the level sets' own velocity across it. The
 /// two differ where the profile is being restored; with the fluid's velocity alone y would grow in the layer's tails.
@@ -29,10 +28,9 @@ void add_transport(const Number& y, const Fields<Number>& x, const PointGeometry
 /// shear rate × ε²/D_n, and the force e ∇c with them: with a constant D_n the volume's error grew as ε fell, and so it
 /// did with normals that lagged behind in the layer's tails by as little as a tenth of a step. On cells c is constant
 /// along the normal but for an error, and what D_n moves there also goes along the membrane, out of the coat. So D_n
-/// fades with the shear, as M does with the membrane's speed.
+/// fades with the shear, which goes with the membrane's speed.
 inline double normal_diffusivity_of_molecules(double epsilon, const StepNumbers& step) {
-    const double fading = std::max(slowest_alignment, step.profile_relaxation / step.rates.profile_relaxation);
-    const double least = fading * step.rates.least_normal_diffusivity / (epsilon * epsilon * epsilon);
+    const double least = step.molecules_alignment * step.rates.least_normal_diffusivity / (epsilon * epsilon * epsilon);
     return within_a_step(std::max(step.normal_diffusivity, least), epsilon, step);
 }
 
@@ -76,7 +74,7 @@ void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     const auto &c = x[molecule_density], &mu = x[molecule_potential];
     add_transport(c.value, x, p, past, past.molecules, step, row[molecule_density]);
     const Number phi2 = p.layer.phi * p.layer.phi, weight = cut_density(p.layer);
-    add_alignment(c, past.molecules_normal, normal_diffusivity_of_molecules(p.epsilon, step) * p.surface,
+    add_alignment(c, past.molecules_normal, past.even * normal_diffusivity_of_molecules(p.epsilon, step) * p.surface,
                   row[molecule_density]);
     add_diffusion(c, step.rates.molecule_leak * (phi2 * phi2), row[molecule_density]);
     if (step.inextensible) add_redistribution(c.value, x[membrane_stretch], p, weight, step, row[molecule_density]);
@@ -84,7 +82,8 @@ void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     const double metric = energy.coupled ? 1 : past.metric;  // a coupled energy has the sheets' own gradients
     const ValueAndDerivatives local = law.potential(value_of(c.value));
     if (law.edge_width > 0) {
-        add_surface_diffusion<Number>(mu, metric * law.mobility * weight, p, row[molecule_density]);
+        const Number conducting = energy.coupled ? energy_weight(p.layer, x[distance].value, p.epsilon).value : weight;
+        add_surface_diffusion<Number>(mu, metric * law.mobility * conducting, p, row[molecule_density]);
     } else if (law.mobility > 0) {
         const Number diffusivity = chain(c.value, local.first, local.second);
         add_surface_diffusion<Number>(c, metric * law.mobility * diffusivity * weight, p, row[molecule_density]);
@@ -112,7 +111,8 @@ void add_stretching(const Fields<Number>& x, const PointGeometry<Number>& p, con
                     const StepNumbers& step, Fields<Number>& row) {
     const auto& s = x[membrane_stretch];
     add_transport(s.value, x, p, past, past.stretching, step, row[membrane_stretch]);
-    add_alignment(s, past.normal, within_a_step(step.rates.stretching_alignment, p.epsilon, step) * p.surface,
+    add_alignment(s, past.normal,
+                  past.even * within_a_step(step.rates.stretching_alignment, p.epsilon, step) * p.surface,
                   row[membrane_stretch]);
     add_surface_diffusion<Number>(s, stretch_diffusivity(step) * p.surface, p, row[membrane_stretch]);
 }
