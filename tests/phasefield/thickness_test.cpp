@@ -83,6 +83,22 @@ TEST_CASE("the layer follows neck and bend", "[thickness]") {
         CHECK(epsilon >= constant("thinnest") * widest);
 }
 
+TEST_CASE("the layer is thin where another part of the membrane is near", "[thickness]") {
+    // Two planes at 4 nm, joined far out: circles of 2 nm fit between them.
+    const Parameters p;
+    MembraneCurve folded;
+    const auto add = [&](double r, double z) {
+        folded.r.push_back(r);
+        folded.z.push_back(z);
+    };
+    for (double r = 0; r < 60; r += spacing) add(r, 84);
+    for (double angle = 0; angle < std::numbers::pi; angle += spacing / 2)
+        add(60 + 2 * std::sin(angle), 82 + 2 * std::cos(angle));
+    for (double r = 60; r > 0; r -= spacing) add(r, 80);
+    const double expected = 2 / constant("room_needed");
+    CHECK(ThicknessCurve(folded, 0, p).at(20, 84) == Approx(expected).epsilon(0.02));  // (1.2/ε)⁻⁸/8 and spacing
+}
+
 TEST_CASE("what flows along a layer that thins stays what it is", "[thickness]") {
     // A plane membrane at rest, the fluid moving along it: ∂(δ_m y)/∂t + ∇·(δ_m y v) of y = 1 vanishes though δ_m
     // changes along the flow. Central differences of terms of order one: measured 5e-6; along sheets of constant ψ

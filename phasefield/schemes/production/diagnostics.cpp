@@ -92,7 +92,8 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
             const double motion = std::abs(psi.value[q] - old_psi.value[q]);
             diagnostics.motion_max = std::max(diagnostics.motion_max, motion);
             layer_motion = std::max(layer_motion, motion * numerics.epsilon / epsilon);
-            difference = std::max(difference, std::abs(psi.value[q] - guess.value[q]));
+            if (std::abs(layer.phi) < layer_middle)
+                difference = std::max(difference, std::abs(psi.value[q] - guess.value[q]));
         }
     }
     const MPI_Comm communicator = space.dofs.get_communicator();

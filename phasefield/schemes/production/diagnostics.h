@@ -9,7 +9,7 @@ namespace endoflow::phasefield::production {
 struct SolutionMeasures {
     LayerIntegrals integrals;
     StepDiagnostics diagnostics;
-    double step_difference;  // max |ψ − ψ_predicted| on |φ| < 0.9 [nm]
+    double step_difference;  // max |ψ − ψ_predicted| on |φ| < 0.5 [nm]: further out layers may meet
     double layer_motion;  // the same of ψ − ψ_before where ε is largest; elsewhere as much larger as ε is smaller
 };
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "phasefield/contour/polyline.h"
@@ -21,6 +22,7 @@ namespace {
 constexpr double thinnest = constant("thinnest");
 constexpr double thinning_slope = constant("thinning_slope");
 constexpr double thinning_window = constant("thinning_window");
+constexpr double room_needed = constant("room_needed");
 
 /// The curve by arc length, mirrored at the axis and straight beyond the rim. What lies behind the axis has negative r.
 class ByArcLength {
@@ -81,6 +83,22 @@ std::array<double, 2> curvatures(const ByArcLength& path, double s, double windo
     return {along, around};
 }
 
+/// The radius to which a circle that touches the curve at s can grow, on either side, until it meets another part of
+/// it [nm]: there the layers of the two would meet.
+double room_of_layer(const MembraneCurve& curve, const ByArcLength& path, double s, double window) {
+    const PlanePoint before = path.at(s - window), here = path.at(s), after = path.at(s + window);
+    const double tangent_r = after.r - before.r, tangent_z = after.z - before.z,
+                 length = std::hypot(tangent_r, tangent_z);
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t j = 0; j < curve.size(); ++j) {
+        if (std::abs(path.s[j] - s) < 2 * window) continue;
+        const double r = curve.r[j] - here.r, z = curve.z[j] - here.z;
+        const double across = std::abs(tangent_r * z - tangent_z * r) / length;
+        if (across > 0) least = std::min(least, (r * r + z * z) / (2 * across));
+    }
+    return least;
+}
+
 }  // namespace
 
 std::vector<double> thickness_along(const MembraneCurve& curve, const Parameters& p) {
@@ -91,7 +109,9 @@ std::vector<double> thickness_along(const MembraneCurve& curve, const Parameters
     const ByArcLength path(curve);
     for (std::size_t i = 0; i < epsilon.size(); ++i) {
         const auto [along, around] = curvatures(path, path.s[i], thinning_window * widest);
-        const double narrowing = 1 + eighth_power(radius * along) + eighth_power(radius * around);
+        const double room = room_of_layer(curve, path, path.s[i], thinning_window * widest);
+        const double narrowing = 1 + eighth_power(radius * along) + eighth_power(radius * around) +
+                                 eighth_power(room_needed * widest / room);
         epsilon[i] = widest * std::max(thinnest, std::pow(narrowing, -0.125));
     }
     const auto limit = [&](std::size_t i, std::size_t neighbour) {

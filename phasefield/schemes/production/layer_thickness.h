@@ -18,8 +18,9 @@ struct PointThickness {
 };
 
 /// ε at the points of the membrane [nm]: phase_field.epsilon, and where a radius of curvature ρ, along the meridian or
-/// around the axis, is below ρ₀, the part `thinning` of the box, smaller in proportion, ε₀ (1 + Σ (ρ₀/ρ)⁸)^(−1/8), but
-/// nowhere below the part `thinnest` of ε₀. Along the membrane it changes by at most `thinning_slope`. What a layer
+/// around the axis, is below ρ₀, the part `thinning` of the box, smaller in proportion, ε₀ (1 + Σ (ρ₀/ρ)⁸)^(−1/8), and
+/// so where the layer of another part of the membrane is met within `room_needed` ε₀, but nowhere below the part
+/// `thinnest` of ε₀. Along the membrane it changes by at most `thinning_slope`. What a layer
 /// does to a neck is of the order of (ε/ρ)².
 std::vector<double> thickness_along(const MembraneCurve& curve, const Parameters& parameters);
 
