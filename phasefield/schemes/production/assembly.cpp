@@ -84,8 +84,7 @@ class CellEquations {
             for (unsigned int f = 0; f < n_fields; ++f)
                 values[f] = {local.field(f).value[q], local.field(f).r[q], local.field(f).z[q]};
             const Direction& n = past[q].normal;
-            const GradientChange change{n.r * psi.rr[q] + n.z * psi.rz[q], n.r * psi.rz[q] + n.z * psi.zz[q],
-                                        psi.rr[q] + psi.zz[q] + psi.r[q] / r};
+            const GradientChange change = gradient_change(n, psi.rr[q], psi.rz[q], psi.zz[q], psi.r[q] / r);
             auto rows = point_equations(fields_from<Number>(values), r, past[q], change, *step_, *energy_);
             if (manufactured)
                 take_off(manufactured(r, box.z0 + box.hz * quadrature.point(q)[1]), r, past[q], change, rows);

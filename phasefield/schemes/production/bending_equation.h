@@ -8,6 +8,7 @@ namespace endoflow::phasefield::production {
 template <class Number>
 struct BendingForces {
     Number along, across;  // ∂e/∂c or μ: along the sheets cut off in the tails [pN/nm], across with δ_E [pN/nm²]
+    Number weight;         // δ_E [1/nm]
     Number of_thickness;   // E_ε ∂ε/∂ψ per volume, along ∇ψ [pN/nm³]
     SheetState<Number> sheet;
 };
@@ -28,7 +29,7 @@ struct BendingForces {
 /// An energy that knows the gradient along the sheets, t·∇c, has ∂E/∂c with a divergence in it: μ is then the field
 /// whose row this is, w μ = ∂E/∂c, and takes the place of ∂e/∂c in the force. On sheets of other lengths it would be
 /// another one, and molecules that are constant along the normal are driven by its mean: it is kept constant there,
-/// without which what it does across the layer and in its tails would dissipate a tenth of the fluid's power. The
+/// without which what it does across the layer and in its tails would dissipate some per cent of the fluid's power. The
 /// sheets' direction depends on ψ; what that adds to G vanishes where c is constant along the normal.
 ///
 /// That sheets on both sides of a curved membrane have together a larger area than the membrane is accounted for in e*
@@ -89,7 +90,7 @@ BendingForces<Number> add_bending(const Fields<Number>& x, const PointGeometry<N
         const Number lag = (-energy_second_moment * p.epsilon) * around.scaled * w.value * potential * along;
         row[normal_force].r = row[normal_force].r - lag * p.normal_z;
         row[normal_force].z += lag * p.normal_r;
-        return {w.kept * potential, w.value * potential, of_thickness, sheet};
+        return {w.kept * potential, w.value * potential, w.value, of_thickness, sheet};
     }
 
     const Number line = 2.0 * w.value * elastic.by_squared_gradient * along, turning = line * p.inverse_gradient;
@@ -102,7 +103,7 @@ BendingForces<Number> add_bending(const Fields<Number>& x, const PointGeometry<N
                                line * p.normal_z, -1.0 * line * p.normal_r};
     add_alignment(x[molecule_potential], past.normal, (potential_alignment * p.epsilon * p.epsilon) * w.value,
                   row[molecule_potential]);
-    return {w.kept * mu, w.value * mu, of_thickness, sheet};
+    return {w.kept * mu, w.value * mu, w.value, of_thickness, sheet};
 }
 
 }  // namespace endoflow::phasefield::production

@@ -73,27 +73,37 @@ std::vector<double> averaged(const std::vector<double>& s, const std::vector<dou
     return out;
 }
 
-/// The principal curvatures [1/nm] from chords as long as `window`, for points of the contour lie on many cells.
-std::array<double, 2> curvatures(const ByArcLength& path, double s, double window) {
-    const PlanePoint before = path.at(s - window), here = path.at(s), after = path.at(s + window);
+/// Three points of the curve, `window` [nm] of arc apart: what lies nearer may be noise, for the points of the contour
+/// lie on many cells.
+struct Chord {
+    Chord(const ByArcLength& path, double s, double window)
+        : before(path.at(s - window)), here(path.at(s)), after(path.at(s + window)) {}
+    [[nodiscard]] double r() const { return after.r - before.r; }
+    [[nodiscard]] double z() const { return after.z - before.z; }
+    [[nodiscard]] double length() const { return std::hypot(r(), z()); }
+
+    PlanePoint before, here, after;
+};
+
+/// The principal curvatures [1/nm].
+std::array<double, 2> curvatures(const Chord& chord, double window) {
+    const auto& [before, here, after] = chord;
     const double r1 = here.r - before.r, z1 = here.z - before.z, r2 = after.r - here.r, z2 = after.z - here.z;
     const double turn = std::atan2(r1 * z2 - z1 * r2, r1 * r2 + z1 * z2);
-    const double along = turn / window, length = std::hypot(after.r - before.r, after.z - before.z);
-    const double around = here.r > window ? (after.z - before.z) / (length * here.r) : along;
+    const double along = turn / window;
+    const double around = here.r > window ? chord.z() / (chord.length() * here.r) : along;
     return {along, around};
 }
 
 /// The radius to which a circle that touches the curve at s can grow, on either side, until it meets another part of
 /// it [nm]: there the layers of the two would meet.
-double room_of_layer(const MembraneCurve& curve, const ByArcLength& path, double s, double window) {
-    const PlanePoint before = path.at(s - window), here = path.at(s), after = path.at(s + window);
-    const double tangent_r = after.r - before.r, tangent_z = after.z - before.z,
-                 length = std::hypot(tangent_r, tangent_z);
+double room_of_layer(const MembraneCurve& curve, const ByArcLength& path, const Chord& chord, double s, double window) {
+    const double length = chord.length();
     double least = std::numeric_limits<double>::max();
     for (std::size_t j = 0; j < curve.size(); ++j) {
         if (std::abs(path.s[j] - s) < 2 * window) continue;
-        const double r = curve.r[j] - here.r, z = curve.z[j] - here.z;
-        const double across = std::abs(tangent_r * z - tangent_z * r) / length;
+        const double r = curve.r[j] - chord.here.r, z = curve.z[j] - chord.here.z;
+        const double across = std::abs(chord.r() * z - chord.z() * r) / length;
         if (across > 0) least = std::min(least, (r * r + z * z) / (2 * across));
     }
     return least;
@@ -107,9 +117,11 @@ std::vector<double> thickness_along(const MembraneCurve& curve, const Parameters
     std::vector<double> epsilon(curve.size(), widest);
     if (radius == 0 || curve.size() < 3) return epsilon;
     const ByArcLength path(curve);
+    const double window = thinning_window * widest;
     for (std::size_t i = 0; i < epsilon.size(); ++i) {
-        const auto [along, around] = curvatures(path, path.s[i], thinning_window * widest);
-        const double room = room_of_layer(curve, path, path.s[i], thinning_window * widest);
+        const Chord chord(path, path.s[i], window);
+        const auto [along, around] = curvatures(chord, window);
+        const double room = room_of_layer(curve, path, chord, path.s[i], window);
         const double narrowing = 1 + eighth_power(radius * along) + eighth_power(radius * around) +
                                  eighth_power(room_needed * widest / room);
         epsilon[i] = widest * std::max(thinnest, std::pow(narrowing, -0.125));

@@ -72,14 +72,12 @@ class PastFields {
             if (step_->pole_force && well > loaded_layer)
                 points[q].pole_force = step_->pole_force->at(box.r0 + box.hr * x[0], box.z0 + box.hz * x[1]);
             const double around = predicted_.r[q] / (box.r0 + box.hr * x[0]);
-            const double laplacian = predicted_.rr[q] + predicted_.zz[q] + around;
-            points[q].arc = sheet_arc(predicted_.value[q], around, laplacian);
-            points[q].metric = sheet_metric(predicted_.value[q], around, laplacian);
             points[q].normal = normal(predicted_.r[q], predicted_.z[q], last_normal_below);
-            const Direction& n = points[q].normal;
-            points[q].even = evenness({n.r * predicted_.rr[q] + n.z * predicted_.rz[q],
-                                       n.r * predicted_.rz[q] + n.z * predicted_.zz[q], laplacian},
-                                      points[q].thickness.value);
+            const GradientChange change =
+                gradient_change(points[q].normal, predicted_.rr[q], predicted_.rz[q], predicted_.zz[q], around);
+            points[q].arc = sheet_arc(predicted_.value[q], around, change.laplacian);
+            points[q].metric = sheet_metric(predicted_.value[q], around, change.laplacian);
+            points[q].even = evenness(change, points[q].thickness.value);
             points[q].molecules_normal = normal(ahead_r_[q], ahead_z_[q], last_molecules_normal_below);
         }
     }

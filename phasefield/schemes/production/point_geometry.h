@@ -41,6 +41,11 @@ struct GradientChange {
     double laplacian = 0;
 };
 
+/// From ψ's second derivatives; `around` is ψ_r/r.
+inline GradientChange gradient_change(const Direction& n, double rr, double rz, double zz, double around) {
+    return {n.r * rr + n.z * rz, n.r * rz + n.z * zz, rr + zz + around};
+}
+
 /// x (1 + (x/bound)⁸)^(−1/8): smoothly below the bound, and x up to (x/bound)⁸/8 of itself.
 ValueAndDerivatives bounded(double x, double bound);
 

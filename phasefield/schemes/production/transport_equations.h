@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "phasefield/schemes/production/layer_energy.h"
+#include "phasefield/schemes/production/bending_equation.h"
 
 namespace endoflow::phasefield::production {
 
@@ -69,8 +69,8 @@ void add_redistribution(const Number& c, const AtPoint<Number>& s, const PointGe
 /// does: on the coarse cells beyond, the double well would have several solutions where the layers of bud and plane
 /// meet.
 template <class Number>
-void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, const PointPast& past,
-                   const StepNumbers& step, const LayerEnergy& energy, Fields<Number>& row) {
+void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, const BendingForces<Number>& force,
+                   const PointPast& past, const StepNumbers& step, const LayerEnergy& energy, Fields<Number>& row) {
     const auto &c = x[molecule_density], &mu = x[molecule_potential];
     add_transport(c.value, x, p, past, past.molecules, step, row[molecule_density]);
     const Number phi2 = p.layer.phi * p.layer.phi, weight = cut_density(p.layer);
@@ -82,7 +82,7 @@ void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     const double metric = energy.coupled ? 1 : past.metric;  // a coupled energy has the sheets' own gradients
     const ValueAndDerivatives local = law.potential(value_of(c.value));
     if (law.edge_width > 0) {
-        const Number conducting = energy.coupled ? energy_weight(p.layer, x[distance].value, p.epsilon).value : weight;
+        const Number conducting = energy.coupled ? force.weight : weight;
         add_surface_diffusion<Number>(mu, metric * law.mobility * conducting, p, row[molecule_density]);
     } else if (law.mobility > 0) {
         const Number diffusivity = chain(c.value, local.first, local.second);
