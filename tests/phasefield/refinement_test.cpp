@@ -63,8 +63,8 @@ TEST_CASE("cells are a quarter of the neck's radius and no finer at the bud's ti
 }
 
 TEST_CASE("cells are finer where the layer is thinner", "[refinement]") {
-    // ε is in proportion to the neck's radius, 14 nm for ε₀; a cell may be 1.05 times as many ε wide as elsewhere, which
-    // a catenoid of 17 nm is for 2 (14/17)⁸ = 0.42.
+    // ε is in proportion to the neck's radius, 14 nm for ε₀; a cell may be 1.05 times as many ε wide as elsewhere,
+    // which a catenoid of 17 nm is for 2 (14/17)⁸ = 0.42.
     Parameters p = with_cells();
     p.phase_field.production.thinning = 0.175;
     for (const auto& [neck, halvings] : {std::pair{9.0, 1}, {6.0, 1}, {4.5, 2}, {3.0, 2}}) {
