@@ -56,13 +56,17 @@ double AccuracyWatch::measured(const AccuracyBound& bound, const HistoryRow& row
             return first == 0 ? 0 : std::abs(value / first - 1);
         }
         case AccuracyMeasure::accumulated: {
-            const std::string edge = "line_energy_pN_nm";
-            const double line = has_column(edge, columns_) ? value_of(edge, row, columns_).value_or(0) : 0,
+            const auto optional = [&](const char* column) {
+                return has_column(column, columns_) ? value_of(column, row, columns_).value_or(0) : 0;
+            };
+            const double line = optional("line_energy_pN_nm"), power = optional("load_power_pN_nm_per_us"),
                          energy = std::max(memory.value("energy_pN_nm", 0.0), row.membrane.bending_energy + line),
-                         sum = memory.value("sum", 0.0) + value * row.step_us;
+                         work = memory.value("work_pN_nm", 0.0) + std::abs(power) * row.step_us,
+                         sum = memory.value("sum", 0.0) + value * row.step_us, whole = std::max(energy, work);
             memory["energy_pN_nm"] = energy;
+            memory["work_pN_nm"] = work;
             memory["sum"] = sum;
-            return energy == 0 ? 0 : std::abs(sum / energy);
+            return whole == 0 ? 0 : std::abs(sum / whole);
         }
     }
     throw std::logic_error("no such measure of accuracy");

@@ -16,7 +16,8 @@ namespace endoflow {
 enum class AccuracyMeasure {
     value,       ///< |column|
     drift,       ///< |column − its first value| / |its first value|
-    accumulated  ///< |∫ column dt| / the membrane's largest energy so far, bending and edge
+    accumulated  ///< |∫ column dt| / the larger one of the membrane's largest energy, bending and edge, and the loads'
+                 ///< work ∫ |power| dt, both so far: a flat membrane that a force pulls has no energy yet
 };
 
 /// A quantity that is small in an accurate run, and how large it may get.

@@ -84,7 +84,7 @@ const std::vector<AccuracyBound>& phase_field_bounds() {
          accumulated,
          1e-2,
          0.5,
-         "energy that the law (21) does not account for, of the largest so far",
+         "energy that the law (21) does not account for, of the largest one or the loads' work so far",
          finer_layer,
          {}},
         {"mass-drift", "phase-field", "molecule_mass_nm2", drift, 1e-3, 0.1, "change of the molecules' mass",

@@ -128,6 +128,21 @@ TEST_CASE("the energy law is seen against the largest energy, that of the edge i
     CHECK(record["accuracy"]["energy-law"]["largest"].get<double>() == Approx(0.02));
 }
 
+TEST_CASE("the energy law of a flat membrane that a force begins to pull is seen against the force's work") {
+    const AccuracyWatch watch(Parameters{}, diffuse_engine("load_power_pN_nm_per_us"));
+    RunRecord record;
+    HistoryRow row = row_at(0, {0, 0});
+    CHECK(watch.look_at(row, record).empty());
+    row.time_us = row.step_us = 1e-3;
+    row.membrane.bending_energy = 0.01;
+    row.extra = {10, 7000};  // 0.01 pN nm is as much as the energy, and a 700th of the work
+    CHECK(watch.look_at(row, record).empty());
+    CHECK(record["accuracy"]["energy-law"]["largest"].get<double>() == Approx(1.0 / 700));
+    row.extra = {200, -7000};  // the work of both signs: 14 pN nm
+    CHECK(watch.look_at(row, record).size() == 1);
+    CHECK(record["accuracy"]["energy-law"]["largest"].get<double>() == Approx(0.015));
+}
+
 TEST_CASE("a membrane that may stretch raises no alarm of strain") {
     HistoryRow row = balanced_row(0.1);
     row.area_strain_max = 0.5;

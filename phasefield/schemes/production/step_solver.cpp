@@ -88,7 +88,7 @@ StepSolver::Ending StepSolver::iterate(const Problem& problem, Vector& solution,
         const bool foreseen = newton != nullptr && iteration > 0 && contraction < fast_contraction;
         const bool arrived = change <= wanted_ || (foreseen && change * contraction <= 0.5 * wanted_);
         if (arrived && mixing->norm(step) <= largest_rest) return Ending::converged;
-        if (newton == nullptr && iteration >= seen_enough &&
+        if (iteration >= seen_enough &&
             std::log(wanted_ / first) < most_iterations * std::log(change / first) / iteration)
             break;  // it would take more at this rate
         last = change;
@@ -150,6 +150,7 @@ void StepSolver::converge(const Problem& problem, Vector& solution) {
     for (int k = 0; k < most_factorisations; ++k) {
         const Ending ending = iterate_with_new_factors(problem, solution);
         if (ending == Ending::converged) return;
+        if (ending == Ending::slow && k == 0) continue;  // one step of Newton's method from the guess was not enough
         if (system_.precision() == Precision::single) {
             start_again();
             ++counts_.single_precision_failed;
