@@ -1,7 +1,9 @@
 """Items of other papers in `endoflow reproduce`: what is read off branches of stationary shapes, and the branches themselves."""
 
+import io
 import math
 import unittest
+from contextlib import redirect_stdout
 from unittest import mock
 
 import locations  # noqa: F401
@@ -9,6 +11,7 @@ import numpy as np
 from comparisons.commands import reproduce
 from comparisons.errors import StudyError
 from comparisons.paper import OTHERS, branches, derenyi2002, hassinger2017, juelicher1996
+from scratch import scratch_directory
 
 
 class ReadOff(unittest.TestCase):
@@ -67,9 +70,15 @@ class ReadOff(unittest.TestCase):
             "bud_height_nm": length,
             "membrane_area_nm2": 2 * math.pi * 22.0 * length,
         }
-        with mock.patch.object(derenyi2002, "followed", return_value=branches.Branch(columns, [], "here")):
+        branch = branches.Branch(columns, [], "here")
+        with mock.patch.object(derenyi2002, "followed", return_value=branch):
             ours = [one.ours[""] for one in derenyi2002.result({}, False).printed]
         self.assertEqual(ours[:3], ["28.0992589 pN", "22 nm", "20.0 % above"])
+        output = scratch_directory(self) / "papers"
+        with mock.patch.object(derenyi2002, "followed", return_value=branch), redirect_stdout(io.StringIO()):
+            self.assertEqual(reproduce.run(reproduce.parsed(["derenyi2002", "-o", str(output)])), 0)
+        self.assertIn("derenyi2002/report.html", (output / "index.html").read_text(), "an index of no runs")
+        self.assertFalse((output / "runs.csv").exists())
 
 
 class Followed(unittest.TestCase):
