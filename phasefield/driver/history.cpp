@@ -49,9 +49,10 @@ const std::vector<OwnColumn<StepRecord>>& own_history_columns() {
          [](const R& r) { return r.molecules.exchanged(); }},
         {"molecule_balance_relative", "|∫ c dA − its first value − ∫∫ j dA dt| over the first value",
          [](const R& r) { return r.molecules.residual(r.integrals.molecules); }},
-        {"bulk_molecules", "∫ χC, how many molecules are in the fluid that the membrane's come from; 0 without a bulk",
+        {"bulk_molecules",
+         "∫ χc_b, how many molecules are in the fluid that the membrane's come from; 0 without a bulk",
          [](const R& r) { return r.diagnostics.bulk.molecules; }},
-        {"bulk_supply", "mean of C/C₀ at the membrane, by which attachment is slower than from a reservoir",
+        {"bulk_supply", "mean of c_b/c_∞ at the membrane, by which attachment is slower than from a reservoir",
          [](const R& r) { return r.diagnostics.bulk.supply; }},
         {"bulk_made_up_nm2", "what the walls have made up for of the bulk's depletion since t = 0, as coat",
          [](const R& r) { return r.diagnostics.bulk.made_up; }},
@@ -59,7 +60,7 @@ const std::vector<OwnColumn<StepRecord>>& own_history_columns() {
          "coat that was put right in the bulk since t = 0, for the molecules to be conserved: by j without its sign",
          [](const R& r) { return r.diagnostics.bulk.corrected; }},
         {"bulk_balance_relative",
-         "|∫ c dA + a₀ ∫ χ(C − C₀) − its first value − what the walls have made up for| over the first ∫ c dA",
+         "|∫ c dA + a₀ ∫ χ(c_b − c_∞) − its first value − what the walls have made up for| over the first ∫ c dA",
          [](const R& r) { return r.diagnostics.bulk.residual; }},
     };
     return columns;

@@ -19,7 +19,7 @@ struct Pool {
     }
 };
 
-/// Langmuir: j = k_on (C/C₀) (1 − m/m_pool) (1 − c) − k_off c exp(s a₀ (∂e/∂c)/(k_B T)).
+/// Langmuir: j = k_on (c_b/c_∞) (1 − m/m_pool) (1 − c) − k_off c exp(s a₀ (∂e/∂c)/(k_B T)).
 struct ReservoirExchange {
     double on_rate, off_rate;  // 1/µs
     double sensing;            // s a₀/(k_B T), nm/pN
@@ -34,9 +34,9 @@ struct ReservoirExchange {
     }
 };
 
-/// j = v (C/C₀) (1 − m/m_pool) √2 c (1 − c)/ε_c, which is v |∂_s c| on the equilibrium profile of (24), so that a flat
-/// coat's radius grows at v; 0 where c < 0: where there are no molecules none are made, and c = 0 is unstable under the
-/// law.
+/// j = v (c_b/c_∞) (1 − m/m_pool) √2 c (1 − c)/ε_c, which is v |∂_s c| on the equilibrium profile of (24), so that a
+/// flat coat's radius grows at v; 0 where c < 0: where there are no molecules none are made, and c = 0 is unstable
+/// under the law.
 struct EdgeExchange {
     double speed_per_width;  // √2 v/ε_c, 1/µs
     Pool pool;

@@ -16,7 +16,7 @@ struct ExchangePoint {
     Number concentration;     // c
     Number by_concentration;  // ∂e/∂c of bending at given curvature, pN/nm
     Number mass;              // m = ∫ c dA, what is on the whole membrane, nm²
-    Number bulk;              // C/C₀ of the fluid at the membrane, 1 where nothing is depleted
+    Number bulk;              // c_b/c_∞ of the fluid at the membrane, 1 where nothing is depleted
 };
 
 /// How molecules come onto the membrane and leave it: ∂_t (c dA) + … = j dA. A law is a class with

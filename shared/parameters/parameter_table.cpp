@@ -211,13 +211,13 @@ std::vector<ParameterRow> molecule_rows() {
             "1 - m/m_pool; 0 = unlimited"),
         row("molecules", "bulk", &P::molecules, &S::bulk, "", any(), "",
             "the fluid that the molecules of molecules.exchange come from and leave to, carried along and diffusing "
-            "there; attachment slows down as C/C₀ at the membrane; none: nothing is depleted"),
-        row("molecules", "bulk_diffusivity", &P::molecules, &S::bulk_diffusivity, "nm^2/µs", at_least(0, 1e9), "D",
+            "there; attachment slows down as c_b/c_∞ at the membrane; none: nothing is depleted"),
+        row("molecules", "bulk_diffusivity", &P::molecules, &S::bulk_diffusivity, "nm^2/µs", at_least(0, 1e9), "D_b",
             "of the molecules in the bulk; 1 nm^2/µs = 1 µm^2/s"),
-        row("molecules", "bulk_concentration", &P::molecules, &S::bulk_concentration, "1/nm^3", at_least(0, 1), "C₀",
+        row("molecules", "bulk_concentration", &P::molecules, &S::bulk_concentration, "1/nm^3", at_least(0, 1), "c_∞",
             "of the molecules in the bulk at the start; 1 µM = 6.022e-7/nm^3"),
         row("molecules", "bulk_reach", &P::molecules, &S::bulk_reach, "nm", at_least(0, 1e9), "ℓ",
-            "how far beyond the walls the bulk has C₀; 0 = the walls let no molecule through"),
+            "how far beyond the walls the bulk has c_∞; 0 = the walls let no molecule through"),
     };
 }
 

@@ -66,7 +66,8 @@ class RestingMembrane {
         interpolate(
             space_, distance, [&](double, double z) { return parameters_.domain.membrane_height - z; }, membrane_);
         finish_interpolation(space_, membrane_);
-        bulk_.start(first_mass_);
+        const BdfCoefficients none{};
+        bulk_.start({space_, energy_, numbers_, none, membrane_}, first_mass_);
     }
 
     /// Steps of `tau` µs; returns what was measured last.
@@ -91,7 +92,7 @@ class RestingMembrane {
 
     [[nodiscard]] double area() const { return std::numbers::pi * std::pow(parameters_.domain.radius, 2); }
     [[nodiscard]] double coat() const { return masses_.front() - first_mass_; }  // that has come [nm²]
-    [[nodiscard]] double coat_of_volume() const {                                // a₀C₀ [1/nm]
+    [[nodiscard]] double coat_of_volume() const {                                // a₀c_∞ [1/nm]
         return parameters_.molecules.molecule_area * parameters_.molecules.bulk_concentration;
     }
 
@@ -143,7 +144,7 @@ Parameters half_space(double epsilon) {
 }
 
 /// Relative error of what a membrane that takes up at the speed K has taken from a half space after `time` µs: its
-/// surface then has C/C₀ = exp(x²) erfc(x), x = K √(t/D).
+/// surface then has c_b/c_∞ = exp(x²) erfc(x), x = K √(t/D).
 double uptake_error(double epsilon, double speed, double time) {
     const Parameters p = half_space(epsilon);
     RestingMembrane membrane(p, speed);
@@ -153,33 +154,35 @@ double uptake_error(double epsilon, double speed, double time) {
     for (int k = 0; k < steps; ++k)
         membrane.advance(1, time * (growth - 1) * std::pow(growth, k) / (std::pow(growth, steps) - 1));
     const double D = p.molecules.bulk_diffusivity, x = speed * std::sqrt(time / D);
-    const double taken = D / speed * (std::exp(x * x) * std::erfc(x) - 1 + 2 * x / std::sqrt(std::numbers::pi));
+    const double at_surface = x < 5 ? std::exp(x * x) * std::erfc(x) : 1 / (x * std::sqrt(std::numbers::pi));
+    const double taken = D / speed * (at_surface - 1 + 2 * x / std::sqrt(std::numbers::pi));
     return membrane.coat() / (membrane.area() * membrane.coat_of_volume() * taken) - 1;
 }
 
 }  // namespace
 
 TEST_CASE("a membrane takes up what diffuses to it", "[bulk]") {
-    const double speed = GENERATE(2.0, 20.0);
+    const double speed = GENERATE(2.0, 1000.0);
     const double coarse = uptake_error(2.4, speed, 4), fine = uptake_error(1.2, speed, 4);
     INFO("K = " << speed << ": " << coarse << " " << fine);
-    // The layer's error, of second order. A membrane that takes up at 20 nm/µs has C/C₀ = 0.1 at the end.
+    // The layer's error, of second order. At 1000 nm/µs the membrane takes up all that comes.
     CHECK(std::abs(fine) < 0.005);
     CHECK(std::abs(coarse) > 3.5 * std::abs(fine));
 }
 
 TEST_CASE("walls beyond which the bulk is never depleted supply the membrane", "[bulk]") {
-    // Well mixed, A K b = (D/ℓ) S (1 − b) at rest, S the fluid's walls; with ℓ fifty times the fluid's height C varies
-    // by some 2 % of the depletion in it.
+    // At rest in a thin strip, D d'' = (2/R) (D/ℓ) d with D d' = D d/ℓ at the top, y = 0, and K (1 − d) at the
+    // membrane.
     Parameters p = half_space(2.4);
-    p.molecules.bulk_reach = 4000;
-    const double height = p.domain.height - p.domain.membrane_height, speed = 0.1;
+    p.molecules.bulk_reach = 2000;
+    const double height = p.domain.height - p.domain.membrane_height, speed = 0.5;
+    const double reach = p.molecules.bulk_reach, kappa = std::sqrt(2 / (p.domain.radius * reach));
+    const double grown = std::cosh(kappa * height), slope = std::sinh(kappa * height), top = 1 / (kappa * reach);
+    const double letting = p.molecules.bulk_diffusivity * kappa * (slope + top * grown) / (grown + top * slope);
     RestingMembrane membrane(p, speed);
     BulkMeasures seen;
     for (int k = 0; k < 12; ++k) seen = membrane.advance(1, std::pow(3.0, k));
-    const double walls = membrane.area() + 2 * std::numbers::pi * p.domain.radius * height;
-    const double letting = p.molecules.bulk_diffusivity / p.molecules.bulk_reach * walls;
-    CHECK(seen.supply == Approx(1 / (1 + membrane.area() * speed / letting)).epsilon(0.02));
+    CHECK(seen.supply == Approx(1 / (1 + speed / letting)).epsilon(1e-3));
     CHECK(seen.residual < 1e-10);
 }
 
@@ -187,12 +190,7 @@ TEST_CASE("a bulk that is mixed at once is a pool, and a large one is the reserv
     Parameters p = flat_case();
     constexpr double end = 1e-3;
     const double without = mass_after(p, end), area = std::numbers::pi * std::pow(p.domain.radius, 2);
-    double first = 0;
-    {
-        ProductionScheme scheme(p, MPI_COMM_SELF);
-        scheme.start();
-        first = scheme.integrate().molecules;
-    }
+    const double first = mass_after(p, 0);
     // Langmuir's law is linear in c: dm/dt = k_on b (A − m) − k_off m whatever c is where, b = 1 − (m − m₀)/m_bulk.
     const auto mixed = [&](double bulk) {
         const auto rate = [&](double m) {
@@ -206,7 +204,7 @@ TEST_CASE("a bulk that is mixed at once is a pool, and a large one is the reserv
     };
     const auto with = [&](double coats) {
         Parameters q = p;
-        add_bulk(q, coats, 1e7);
+        add_bulk(q, coats, 1e9);
         return mass_after(q, end);
     };
     INFO("gain " << without - first << " of " << first);
@@ -215,7 +213,7 @@ TEST_CASE("a bulk that is mixed at once is a pool, and a large one is the reserv
     CHECK(without - first == Approx(mixed(1e12) - first).epsilon(2e-3));
     const double large = without - with(30), larger = without - with(300);
     INFO("less than from a reservoir by " << large << " and " << larger);
-    CHECK(large == Approx(10 * larger).epsilon(0.02));  // ∝ 1/C₀; the next order is (gain/bulk)², 0.5 %
+    CHECK(large == Approx(10 * larger).epsilon(0.02));  // ∝ 1/c_∞; the next order is (gain/bulk)², 0.5 %
 }
 
 TEST_CASE("fluid and membrane together keep their molecules while the membrane moves", "[bulk]") {
@@ -232,7 +230,7 @@ TEST_CASE("fluid and membrane together keep their molecules while the membrane m
     const double first = scheme.integrate().molecules;
     BulkMeasures seen;
     double largest = 0;
-    run_steps(scheme, 1e-3, [&](double, double, const StepOutcome& outcome) {
+    run_steps(scheme, 5e-4, [&](double, double, const StepOutcome& outcome) {
         seen = outcome.diagnostics.bulk;
         largest = std::max(largest, seen.residual);
     });
@@ -249,11 +247,15 @@ TEST_CASE("a membrane that takes up all it meets is no stiff problem", "[bulk]")
     Parameters p = flat_case();
     p.molecules.on_rate = 1e4;
     p.molecules.off_rate = 0;
-    add_bulk(p, 1e-2, 100);
+    add_bulk(p, 1e-2, 2e4);
     ProductionScheme scheme(p, MPI_COMM_SELF);
     scheme.start();
     const double first = scheme.integrate().molecules;
-    const double there = 1e-2 * std::numbers::pi * std::pow(p.domain.radius, 2);
+    // What diffuses to a membrane that keeps c_b = 0, 2 c_∞ √(Dt/π); the coat, where 1 − c is 5e-4, takes it up as
+    // well.
+    const double area = std::numbers::pi * std::pow(p.domain.radius, 2);
+    const double taken = area * 2 * p.molecules.molecule_area * p.molecules.bulk_concentration *
+                         std::sqrt(p.molecules.bulk_diffusivity * 1e-3 / std::numbers::pi);
     double last = first;
     run_steps(scheme, 1e-3, [&](double, double, const StepOutcome& outcome) {
         CHECK(outcome.diagnostics.bulk.residual < 1e-10);
@@ -262,7 +264,8 @@ TEST_CASE("a membrane that takes up all it meets is no stiff problem", "[bulk]")
         CHECK(scheme.integrate().molecules > last * (1 - 1e-9));
         last = scheme.integrate().molecules;
     });
-    CHECK(last - first < there);
+    // √(Dt) is 1.9 ε, where the layer makes 9 % more of it on a membrane at rest; the steps and the edge add to that.
+    CHECK(last - first == Approx(taken).epsilon(0.25));
 }
 
 TEST_CASE("a run with a bulk that is continued goes on as it would have", "[bulk]") {

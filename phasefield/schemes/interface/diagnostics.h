@@ -11,10 +11,10 @@ struct LayerIntegrals {
 
 /// The fluid that the molecules come from.
 struct BulkMeasures {
-    double molecules = 0;  // ∫ χC
-    double supply = 1;     // mean of C/C₀ at the membrane
+    double molecules = 0;  // ∫ χc_b
+    double supply = 1;     // mean of c_b/c_∞ at the membrane
     double residual = 0;   // |∫ c dA − its first value − what fluid and walls have given| over the first value
-    double made_up = 0;    // what has come through the walls since t = 0, as coat beyond C₀ times the inflow [nm²]
+    double made_up = 0;    // what has come through the walls since t = 0, as coat beyond c_∞ times the inflow [nm²]
     double corrected = 0;  // coat that was put right at the membrane since t = 0 [nm²]
 };
 

@@ -30,9 +30,9 @@ double bulk_indicator(double phi, const BulkNumbers& numbers) {
 struct BulkPoint {
     double measure, indicator, velocity_r, velocity_z;
     double delta, surface;  // δ, and with its floor [1/nm]
-    double alignment;       // 20 ε² [nm²]
+    double alignment;       // 1000 ε² [nm²]
     Direction normal;
-    double coming, by_supply;  // j [1/µs] and its derivative by C/C₀
+    double coming, by_supply;  // j [1/µs] and its derivative by c_b/c_∞
 };
 
 class BulkPoints {
@@ -83,8 +83,8 @@ class BulkPoints {
     }
 
   private:
-    /// j at given moment b, c, t·∇c and C/C₀. One that is implicit takes molecules at a rate that falls with C alone:
-    /// c, which then is extrapolated, must not be beyond 1.
+    /// j at given moment b, c, t·∇c and c_b/c_∞. One that is implicit takes molecules at a rate that falls with c_b
+    /// alone: c, which then is extrapolated, must not be beyond 1.
     void set_exchange(double b, double c, double slope, double around, double epsilon, double supply,
                       BulkPoint& point) const {
         const StepNumbers& step = *problem_->step;
@@ -158,7 +158,7 @@ unsigned int bulk_gauss_points(const BulkProblem& problem) {
     return gauss_points(problem.step->numerics);
 }
 
-/// Fluid that comes in brings C₀, and beyond the walls there is C₀ after the length ℓ.
+/// Fluid that comes in brings c_∞, and beyond the walls there is c_∞ after the length ℓ.
 void add_walls(const BulkProblem& problem, BulkWalls& walls, const Cell& cell, const CellBox& box,
                dealii::FullMatrix<double>& matrix) {
     const auto& rows = problem.bulk->local[depletion];
@@ -183,7 +183,7 @@ void assemble_bulk(const BulkProblem& problem, BulkExchange exchange, const Vect
     dealii::FullMatrix<double> matrix(n, n);
     dealii::Vector<double> right_hand_side(n), values(n);
     std::vector<dealii::types::global_dof_index> indices(n);
-    // d's row: χ (a₀ d + past + u·∇d), χD∇d, and what the exchange takes; d̄'s row: s (d̄ − d), 20 ε² s n n·∇d̄.
+    // d's row: χ (a₀ d + past + u·∇d), χD∇d, and what the exchange takes; d̄'s row: s (d̄ − d), 1000 ε² s n n·∇d̄.
     Coefficients changing(n_points), carried_r(n_points), carried_z(n_points), conducting(n_points), taking(n_points),
         source(n_points), seen(n_points), unseen(n_points), rr(n_points), rz(n_points), zz(n_points);
     system.start();

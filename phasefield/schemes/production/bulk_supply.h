@@ -12,9 +12,9 @@
 
 namespace endoflow::phasefield::production {
 
-/// Unknowns of the bulk, relative to its initial concentration C₀.
+/// Unknowns of the bulk, relative to its initial concentration c_∞.
 enum BulkField : unsigned int {
-    depletion,              // 1 − C/C₀
+    depletion,              // 1 − c_b/c_∞
     depletion_at_membrane,  // what of it the membrane sees: its mean across the layer, constant along the normal
     n_bulk_fields,
 };
@@ -25,7 +25,7 @@ struct BulkSupply {
     Vector values;       // with ghost values
 };
 
-/// C/C₀ at the membrane at the points of a quadrature, cell by cell; 1 where there is no bulk.
+/// c_b/c_∞ at the membrane at the points of a quadrature, cell by cell; 1 where there is no bulk.
 class SupplyAtPoints {
   public:
     SupplyAtPoints(std::shared_ptr<const BulkSupply> supply, const dealii::Quadrature<2>& quadrature)

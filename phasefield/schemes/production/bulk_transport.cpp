@@ -33,13 +33,16 @@ void BulkTransport::renew() {
     system_.reinit(space_, couplings);
 }
 
-void BulkTransport::start(double membrane_mass) {
+BulkMeasures BulkTransport::start(const BulkStep& at_rest, double membrane_mass) {
     distribute();
     renew();
     solutions_ = {space_.vector()};
     solutions_.front().update_ghost_values();
     missing_ = made_up_ = {0};
     first_mass_ = membrane_mass;
+    BulkMeasures out;
+    out.molecules = integrate_bulk(problem(at_rest), solutions_.front()).molecules;
+    return out;
 }
 
 BulkProblem BulkTransport::problem(const BulkStep& step) const {
@@ -62,28 +65,31 @@ Vector BulkTransport::solve(const BulkStep& step, BulkExchange exchange) {
 }
 
 std::shared_ptr<const BulkSupply> BulkTransport::foresee(const BulkStep& step) {
-    return std::make_shared<const BulkSupply>(BulkSupply{&space_, solve(step, BulkExchange::implicit)});
+    return supply_of(solve(step, BulkExchange::implicit));
 }
 
-/// Molecules are counted by BDF, too: with m = ∫ c dA, p = a₀C₀ ∫ χd and f what the walls make up for, the derivative
+/// Molecules are counted by BDF, too: with m = ∫ c dA, p = a₀c_∞ ∫ χd and f what the walls make up for, the derivative
 /// of m − p − f is to vanish. What is not right after the solve is the difference of j under δ and under δ_m, of the
 /// order of ε², what Newton's method has left of m, and what the layer's motion and a new mesh have made of ∫ χd. A
 /// uniform j makes up for it, at the membrane, where it has come from.
 BulkMeasures BulkTransport::take(const BulkStep& step, const std::vector<double>& masses, double mass, double tau) {
     const auto& [rate, past] = step.bdf;
-    trial_ = solve(step, BulkExchange::given);
+    Vector found = solve(step, BulkExchange::given);
     assemble_unit_exchange(problem(step), system_);
     Vector unit = space_.vector();
     system_.solve(space_.constraints, unit);
 
-    const BulkIntegrals of_unit = integrate_bulk(problem(step), unit), before = integrate_bulk(problem(step), trial_);
+    const BulkIntegrals of_unit = integrate_bulk(problem(step), unit), before = integrate_bulk(problem(step), found);
     const double came = rate * mass + weighted(past, masses);
     const double wrong = came - rate * before.missing - weighted(past, missing_) - before.leaving;
     const double correction = wrong / (rate * of_unit.missing + of_unit.leaving);
-    trial_.add(correction, unit);
-    trial_.update_ghost_values();
+    found.zero_out_ghost_values();
+    found.add(correction, unit);
+    found.update_ghost_values();
+    trial_.reinit(found, true);  // assignment alone could keep the ghosts of an earlier mesh
+    trial_ = found;
 
-    const BulkIntegrals now = integrate_bulk(problem(step), trial_);
+    const BulkIntegrals now = integrate_bulk(problem(step), found);
     trial_missing_ = now.missing;
     trial_made_up_ = (now.leaving - weighted(past, made_up_)) / rate;
     trial_corrected_ = corrected_ + tau * std::abs(correction) * now.area;
@@ -105,10 +111,14 @@ void BulkTransport::keep(std::size_t most) {
     for (const auto& solution : solutions_) solution.update_ghost_values();  // copies do not have them
 }
 
-std::shared_ptr<const BulkSupply> BulkTransport::supply() const {
-    auto out = std::make_shared<BulkSupply>(BulkSupply{&space_, solutions_.front()});
+std::shared_ptr<const BulkSupply> BulkTransport::supply_of(const Vector& solution) const {
+    auto out = std::make_shared<BulkSupply>(BulkSupply{&space_, solution});
     out->values.update_ghost_values();
     return out;
+}
+
+std::shared_ptr<const BulkSupply> BulkTransport::supply() const {
+    return supply_of(solutions_.front());
 }
 
 void BulkTransport::before_adaptation() {
@@ -160,8 +170,7 @@ std::shared_ptr<const BulkSupply> BulkTransport::load(const Checkpoint& checkpoi
     transfer.deserialize(targets);
     for (const auto& solution : solutions_) solution.update_ghost_values();
     if (!with_factors) return {};
-    auto of_factors = std::make_shared<BulkSupply>(BulkSupply{&space_, solutions_.back()});
-    of_factors->values.update_ghost_values();
+    const auto of_factors = supply_of(solutions_.back());
     solutions_.pop_back();
     return of_factors;
 }

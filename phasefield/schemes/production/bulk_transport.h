@@ -29,8 +29,8 @@ class BulkTransport {
   public:
     BulkTransport(const Parameters& parameters, const Mesh& mesh, MPI_Comm communicator);
 
-    /// Undepleted, beside a membrane with this much coat [nm²].
-    void start(double membrane_mass);
+    /// Undepleted, beside a membrane with this much coat [nm²], before any step.
+    BulkMeasures start(const BulkStep& at_rest, double membrane_mass);
     std::shared_ptr<const BulkSupply> foresee(const BulkStep& step);
     /// `masses`: ∫ c dA of the membrane's solutions [nm²], newest first, `mass` that at the end of the step.
     BulkMeasures take(const BulkStep& step, const std::vector<double>& masses, double mass, double tau);
@@ -52,7 +52,6 @@ class BulkTransport {
     std::shared_ptr<const BulkSupply> load(const Checkpoint& checkpoint);
 
     [[nodiscard]] const Space& space() const { return space_; }
-    [[nodiscard]] double initial_concentration() const { return numbers_.concentration; }
     /// Σ_j weights[j] × the solution at t_j, newest first.
     [[nodiscard]] Vector combined(const std::vector<double>& weights) const;
 
@@ -61,13 +60,14 @@ class BulkTransport {
 
     [[nodiscard]] BulkProblem problem(const BulkStep& step) const;
     Vector solve(const BulkStep& step, BulkExchange exchange);
+    [[nodiscard]] std::shared_ptr<const BulkSupply> supply_of(const Vector& solution) const;
     void distribute();
 
     BulkNumbers numbers_;
     Space space_;
     LinearSystem system_;
     std::vector<Vector> solutions_;  // newest first, as all below
-    std::vector<double> missing_;    // a₀C₀ ∫ χd [nm²]
+    std::vector<double> missing_;    // a₀c_∞ ∫ χd [nm²]
     std::vector<double> made_up_;    // what the walls have let in of it since the start [nm²]
     double first_mass_ = 0;          // of the membrane [nm²]
     double corrected_ = 0;           // what `take` has corrected since the start [nm²]

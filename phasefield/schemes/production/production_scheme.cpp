@@ -83,7 +83,7 @@ class PhysicalFields : public dealii::DataPostprocessor<2> {
     const StepNumbers* step_;
 };
 
-/// C [1/nm³], which means something where the fluid is that has it.
+/// c_b [1/nm³], which means something where the fluid is that has it.
 class BulkConcentration : public dealii::DataPostprocessorScalar<2> {
   public:
     explicit BulkConcentration(const MoleculeParameters& molecules)
@@ -146,8 +146,11 @@ StepOutcome ProductionScheme::start() {
     times_ = {0};
     masses_ = molecules_of(space_, numbers_, solutions_);
     numbers_.molecules = masses_.front();
-    if (bulk_) bulk_->start(masses_.front());
-    return present();
+    StepOutcome out = present();
+    const BdfCoefficients none{};
+    if (bulk_)
+        out.diagnostics.bulk = bulk_->start({space_, energy_, numbers_, none, solutions_.front()}, masses_.front());
+    return out;
 }
 
 std::size_t ProductionScheme::order() const {
