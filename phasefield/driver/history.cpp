@@ -57,7 +57,7 @@ const std::vector<OwnColumn<StepRecord>>& own_history_columns() {
         {"bulk_made_up_nm2", "what the walls have made up for of the bulk's depletion since t = 0, as coat",
          [](const R& r) { return r.diagnostics.bulk.made_up; }},
         {"bulk_corrected_nm2",
-         "coat that was put right in the bulk since t = 0, for the molecules to be conserved: by j without its sign",
+         "coat that the uniform j has moved since t = 0 by which fluid and membrane conserve their molecules",
          [](const R& r) { return r.diagnostics.bulk.corrected; }},
         {"bulk_balance_relative",
          "|∫ c dA + a₀ ∫ χ(c_b − c_∞) − its first value − what the walls have made up for| over the first ∫ c dA",

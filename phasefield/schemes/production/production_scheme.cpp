@@ -217,6 +217,15 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     if (estimated)
         trial_factor_ = std::min(
             trial_factor_, safety * std::pow(allowed / std::max(error, 1e-12), 1 / (1 + static_cast<double>(order()))));
+    // A bulk that is being depleted changes the rate at which molecules come in times of its own.
+    double wrong_molecules = 0;
+    if (bulk_ && estimated) {
+        wrong_molecules = std::abs(trial_integrals_.molecules / numbers_.molecules - 1) *
+                          error_fraction(end, times_, order()) /
+                          (error_part * time_tolerance(parameters_, default_tolerance));
+        trial_factor_ = std::min(trial_factor_, safety * std::pow(std::max(wrong_molecules, 1e-12),
+                                                                  -1 / (1 + static_cast<double>(order()))));
+    }
     if (trial_motion_ > 0) trial_factor_ = std::min(trial_factor_, safety * farthest / trial_motion_);
     StepOutcome outcome{measures.diagnostics, {}, {}};
     if (!std::isfinite(measures.diagnostics.bending_energy))
@@ -225,6 +234,8 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
         outcome.rejection = "motion of " + std::to_string(trial_motion_ / parameters_.phase_field.epsilon) + " ε";
     else if (error > tolerated_excess * allowed)
         outcome.rejection = "error " + std::to_string(error) + " nm";
+    else if (wrong_molecules > tolerated_excess)
+        outcome.rejection = "error of the molecules " + std::to_string(wrong_molecules) + " times the allowed one";
     else
         outcome.contour = contour(trial_);
     return outcome;
