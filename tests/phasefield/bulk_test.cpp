@@ -255,14 +255,24 @@ TEST_CASE("a membrane that takes up all it meets is no stiff problem", "[bulk]")
     const double area = std::numbers::pi * std::pow(p.domain.radius, 2);
     const double taken = area * 2 * p.molecules.molecule_area * p.molecules.bulk_concentration *
                          std::sqrt(p.molecules.bulk_diffusivity * 1e-3 / std::numbers::pi);
-    double last = first;
-    run_steps(scheme, 1e-3, [&](double, double, const StepOutcome& outcome) {
+    double last = first, time = 0;
+    constexpr double end = 1e-3;
+    while (time < end * (1 - 1e-12)) {
+        const double tau = scheme.step(time, end);
+        const StepOutcome outcome = scheme.attempt(time, tau);
+        if (!outcome.rejection.empty()) {  // what comes at first goes with the root of time
+            scheme.reject(time, tau);
+            continue;
+        }
+        scheme.keep(time, tau, outcome);
+        scheme.follow(outcome.contour.curve);
+        time += tau;
         CHECK(outcome.diagnostics.bulk.residual < 1e-10);
         CHECK(outcome.diagnostics.bulk.supply > -1e-3);
         CHECK(outcome.diagnostics.bulk.supply < 1);
-        CHECK(scheme.integrate().molecules > last * (1 - 1e-9));
+        CHECK(scheme.integrate().molecules > last);
         last = scheme.integrate().molecules;
-    });
+    }
     // √(Dt) is 1.9 ε, where the layer makes 9 % more of it on a membrane at rest; the steps and the edge add to that.
     CHECK(last - first == Approx(taken).epsilon(0.25));
 }
