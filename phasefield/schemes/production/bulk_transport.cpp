@@ -170,7 +170,7 @@ std::shared_ptr<const BulkSupply> BulkTransport::load(const Checkpoint& checkpoi
     transfer.deserialize(targets);
     for (const auto& solution : solutions_) solution.update_ghost_values();
     if (!with_factors) return {};
-    const auto of_factors = supply_of(solutions_.back());
+    auto of_factors = supply_of(solutions_.back());
     solutions_.pop_back();
     return of_factors;
 }
