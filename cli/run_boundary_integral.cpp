@@ -4,6 +4,7 @@
 #include "command_line.h"
 #include "engine_run.h"
 #include "process.h"
+#include "shared/model/exchange.h"
 #include "shared/output/run_output.h"
 #include "shared/support/fast_blas.h"
 #include "shared/support/interruption.h"
@@ -15,6 +16,7 @@ namespace {
 int run(int argc, char** argv) {
     const auto request = parse_run_request(argc, argv, "boundary-integral");
     if (!request) return 0;
+    require_no_bulk(request->parameters, "boundary-integral");
     require_one_process("the boundary-integral engine", "; boundary_integral.threads shares its work out");
     install_signal_handlers();
     RunOutput output(request->parameters, boundary_integral::identity(request->parameters), request->directory,

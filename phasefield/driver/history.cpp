@@ -49,6 +49,19 @@ const std::vector<OwnColumn<StepRecord>>& own_history_columns() {
          [](const R& r) { return r.molecules.exchanged(); }},
         {"molecule_balance_relative", "|∫ c dA − its first value − ∫∫ j dA dt| over the first value",
          [](const R& r) { return r.molecules.residual(r.integrals.molecules); }},
+        {"bulk_molecules",
+         "∫ χc_b, how many molecules are in the fluid that the membrane's come from; 0 without a bulk",
+         [](const R& r) { return r.diagnostics.bulk.molecules; }},
+        {"bulk_supply", "mean of c_b/c_∞ at the membrane, by which attachment is slower than from a reservoir",
+         [](const R& r) { return r.diagnostics.bulk.supply; }},
+        {"bulk_made_up_nm2", "what the walls have made up for of the bulk's depletion since t = 0, as coat",
+         [](const R& r) { return r.diagnostics.bulk.made_up; }},
+        {"bulk_corrected_nm2",
+         "coat that the uniform j has moved since t = 0 by which fluid and membrane conserve their molecules",
+         [](const R& r) { return r.diagnostics.bulk.corrected; }},
+        {"bulk_balance_relative",
+         "|∫ c dA + a₀ ∫ χ(c_b − c_∞) − its first value − what the walls have made up for| over the first ∫ c dA",
+         [](const R& r) { return r.diagnostics.bulk.residual; }},
     };
     return columns;
 }

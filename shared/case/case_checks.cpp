@@ -125,7 +125,7 @@ void check_exchange(const Parameters& p, const Require& require) {
     belongs(reservoir, "on_rate", m.on_rate, "\"reservoir\"");
     belongs(reservoir, "off_rate", m.off_rate, "\"reservoir\"");
     belongs(reservoir, "curvature_sensing", m.curvature_sensing, "\"reservoir\"");
-    belongs(reservoir, "molecule_area", m.molecule_area, "\"reservoir\"");
+    belongs(reservoir || m.bulk != Bulk::none, "molecule_area", m.molecule_area, "\"reservoir\", or molecules.bulk");
     belongs(edge, "edge_speed", m.edge_speed, "\"edge\"");
     belongs(reservoir || edge, "pool_area", m.pool_area, "\"reservoir\" or \"edge\"");
     if (m.exchange == Exchange::none) return;
@@ -140,7 +140,7 @@ void check_exchange(const Parameters& p, const Require& require) {
             fmt::format("molecules.pool_area = {:g} nm^2 limits what attaches: it needs molecules.on_rate > 0",
                         m.pool_area));
     const bool sensing = m.curvature_sensing > 0;
-    require(sensing == (m.molecule_area > 0) && (!sensing || m.off_rate > 0),
+    require(sensing ? m.molecule_area > 0 && m.off_rate > 0 : m.molecule_area == 0 || m.bulk != Bulk::none,
             "molecules.curvature_sensing and molecules.molecule_area need each other, and molecules.off_rate > 0");
     require(m.pool_area == 0 || m.pool_area > initial_coat(m),
             fmt::format("molecules.pool_area = {:g} nm^2 must exceed the {:.5g} nm^2 of the initial coat", m.pool_area,
@@ -150,6 +150,28 @@ void check_exchange(const Parameters& p, const Require& require) {
             fmt::format("molecules.molecule_area = {:g} nm^2: a molecule of the flat coat would free {:.4g} k_B T by "
                         "leaving, more than {:g}; lower it, or curvature_sensing",
                         m.molecule_area, exponent, largest_exponent));
+}
+
+/// A bulk is the other side of an exchange, and its molecules are counted: their area on the membrane is needed.
+void check_bulk(const Parameters& p, const Require& require) {
+    const MoleculeParameters& m = p.molecules;
+    if (m.bulk == Bulk::none) {
+        const auto belongs = [&](const char* key, double value) {
+            require(value == 0, fmt::format("molecules.{} = {:g} needs molecules.bulk = \"extracellular\" or "
+                                            "\"intracellular\"",
+                                            key, value));
+        };
+        belongs("bulk_diffusivity", m.bulk_diffusivity);
+        belongs("bulk_concentration", m.bulk_concentration);
+        belongs("bulk_reach", m.bulk_reach);
+        return;
+    }
+    const std::string bulk = "molecules.bulk needs ";
+    require(m.exchange != Exchange::none, bulk + "molecules.exchange = \"reservoir\" or \"edge\"");
+    require(m.bulk_diffusivity > 0 && m.bulk_concentration > 0 && m.molecule_area > 0,
+            bulk + "molecules.bulk_diffusivity, molecules.bulk_concentration and molecules.molecule_area > 0");
+    require(m.pool_area == 0, "molecules.bulk is what the molecules are taken from: it needs molecules.pool_area = 0");
+    require(p.fluid.dynamics == Dynamics::flow, bulk + "fluid.dynamics = \"flow\", which carries its molecules along");
 }
 
 /// Numbers whose 0 means "chosen" have a gap above it.
@@ -188,6 +210,7 @@ void check_case(const Parameters& p, const std::string& where) {
     check_loads(p, require);
     check_molecules(p, require);
     check_exchange(p, require);
+    check_bulk(p, require);
     check_resolution(p, require);
     check_times(p, require);
 }

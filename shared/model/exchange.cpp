@@ -19,7 +19,7 @@ struct Pool {
     }
 };
 
-/// Langmuir: j = k_on (1 − m/m_pool) (1 − c) − k_off c exp(s a₀ (∂e/∂c)/(k_B T)).
+/// Langmuir: j = k_on (c_b/c_∞) (1 − m/m_pool) (1 − c) − k_off c exp(s a₀ (∂e/∂c)/(k_B T)).
 struct ReservoirExchange {
     double on_rate, off_rate;  // 1/µs
     double sensing;            // s a₀/(k_B T), nm/pN
@@ -29,12 +29,14 @@ struct ReservoirExchange {
     [[nodiscard]] Number rate(const ExchangePoint<Number>& x) const {
         const double boost = std::exp(sensing * value_of(x.by_concentration));
         const Number leaving = chain(x.by_concentration, boost, sensing * boost, sensing * sensing * boost);
-        return on_rate * (pool.left(x.mass) * (1.0 - x.concentration)) - off_rate * (x.concentration * leaving);
+        return on_rate * (x.bulk * pool.left(x.mass) * (1.0 - x.concentration)) -
+               off_rate * (x.concentration * leaving);
     }
 };
 
-/// j = v (1 − m/m_pool) √2 c (1 − c)/ε_c, which is v |∂_s c| on the equilibrium profile of (24), so that a flat coat's
-/// radius grows at v; 0 where c < 0: where there are no molecules none are made, and c = 0 is unstable under the law.
+/// j = v (c_b/c_∞) (1 − m/m_pool) √2 c (1 − c)/ε_c, which is v |∂_s c| on the equilibrium profile of (24), so that a
+/// flat coat's radius grows at v; 0 where c < 0: where there are no molecules none are made, and c = 0 is unstable
+/// under the law.
 struct EdgeExchange {
     double speed_per_width;  // √2 v/ε_c, 1/µs
     Pool pool;
@@ -42,7 +44,7 @@ struct EdgeExchange {
     template <class Number>
     [[nodiscard]] Number rate(const ExchangePoint<Number>& x) const {
         if (value_of(x.concentration) < 0) return Number(0.0);
-        return speed_per_width * (pool.left(x.mass) * (x.concentration * (1.0 - x.concentration)));
+        return speed_per_width * (x.bulk * pool.left(x.mass) * (x.concentration * (1.0 - x.concentration)));
     }
 };
 
@@ -72,6 +74,11 @@ double detachment_exponent(const MoleculeParameters& molecules, double by_concen
 void require_no_exchange(const Parameters& parameters, const std::string& engine) {
     if (parameters.molecules.exchange == Exchange::none) return;
     throw InputError("molecules.exchange must be none: the " + engine + " engine does not have another one");
+}
+
+void require_no_bulk(const Parameters& parameters, const std::string& engine) {
+    if (parameters.molecules.bulk == Bulk::none) return;
+    throw InputError("molecules.bulk must be none: the " + engine + " engine does not have another one");
 }
 
 }  // namespace endoflow

@@ -16,6 +16,7 @@ struct ExchangePoint {
     Number concentration;     // c
     Number by_concentration;  // ∂e/∂c of bending at given curvature, pN/nm
     Number mass;              // m = ∫ c dA, what is on the whole membrane, nm²
+    Number bulk;              // c_b/c_∞ of the fluid at the membrane, 1 where nothing is depleted
 };
 
 /// How molecules come onto the membrane and leave it: ∂_t (c dA) + … = j dA. A law is a class with
@@ -33,15 +34,16 @@ class ExchangeLaw {
 
     /// j with its derivatives as far as Number carries them.
     template <class Number>
-    [[nodiscard]] Number rate(const Number& c, const Number& by_concentration, const Number& mass) const {
+    [[nodiscard]] Number rate(const Number& c, const Number& by_concentration, const Number& mass,
+                              const Number& bulk = Number(1.0)) const {
         if (none()) return Number(0.0);
         const RateJet jet = rate_({RateJet::variable(value_of(c), 0), RateJet::variable(value_of(by_concentration), 1),
-                                   RateJet::variable(value_of(mass), 2)});
-        return compose(jet, std::array<Number, 3>{c, by_concentration, mass});
+                                   RateJet::variable(value_of(mass), 2), RateJet::variable(value_of(bulk), 3)});
+        return compose(jet, std::array<Number, 4>{c, by_concentration, mass, bulk});
     }
 
   private:
-    using RateJet = Jet<3>;
+    using RateJet = Jet<4>;
     std::function<RateJet(const ExchangePoint<RateJet>&)> rate_;
 };
 
@@ -54,5 +56,8 @@ class ExchangeLaw {
 
 /// Throws InputError where an engine has no exchange of molecules and a case asks for it.
 void require_no_exchange(const Parameters& parameters, const std::string& engine);
+
+/// The same for a bulk that is depleted.
+void require_no_bulk(const Parameters& parameters, const std::string& engine);
 
 }  // namespace endoflow

@@ -27,6 +27,8 @@ constexpr std::array words<Coupling>{"none", "energetic"};
 template <>
 constexpr std::array words<Exchange>{"none", "reservoir", "edge"};
 template <>
+constexpr std::array words<Bulk>{"none", "extracellular", "intracellular"};
+template <>
 constexpr std::array words<PhaseFieldScheme>{"paper", "production"};
 template <>
 constexpr std::array words<StepRule>{"guarded", "ramp"};
@@ -201,12 +203,21 @@ std::vector<ParameterRow> molecule_rows() {
         row("molecules", "thermal_energy", &P::molecules, &S::thermal_energy, "pN nm", {0.1, 1e3}, "k_B T",
             "what curvature sensing compares energies with; 4.11 pN nm at 25 °C"),
         row("molecules", "molecule_area", &P::molecules, &S::molecule_area, "nm^2", at_least(0, 1e4), "a₀",
-            "membrane's area per molecule, for curvature sensing"),
+            "membrane's area per molecule, for curvature sensing and for molecules from a bulk"),
         row("molecules", "edge_speed", &P::molecules, &S::edge_speed, "nm/µs", at_least(0, 1e3), "v",
             "edge: speed at which a flat coat's radius grows; 1e-3 nm/µs = 1 µm/s"),
         row("molecules", "pool_area", &P::molecules, &S::pool_area, "nm^2", at_least(0, 1e12), "m_pool",
             "coat that all molecules together can make, on the membrane and off it; attachment slows down as "
             "1 - m/m_pool; 0 = unlimited"),
+        row("molecules", "bulk", &P::molecules, &S::bulk, "", any(), "",
+            "the fluid that the molecules of molecules.exchange come from and leave to, carried along and diffusing "
+            "there; attachment slows down as c_b/c_∞ at the membrane; none: nothing is depleted"),
+        row("molecules", "bulk_diffusivity", &P::molecules, &S::bulk_diffusivity, "nm^2/µs", at_least(0, 1e9), "D_b",
+            "of the molecules in the bulk; 1 nm^2/µs = 1 µm^2/s"),
+        row("molecules", "bulk_concentration", &P::molecules, &S::bulk_concentration, "1/nm^3", at_least(0, 1), "c_∞",
+            "of the molecules in the bulk at the start; 1 µM = 6.022e-7/nm^3"),
+        row("molecules", "bulk_reach", &P::molecules, &S::bulk_reach, "nm", at_least(0, 1e9), "ℓ",
+            "how far beyond the walls the bulk has c_∞; 0 = the walls let no molecule through"),
     };
 }
 

@@ -14,6 +14,7 @@ enum class ConstitutiveLaw { linear, coarse_grained, lumped };
 enum class Transport { cahn_hilliard, fickian, advection };
 enum class Coupling { none, energetic };
 enum class Exchange { none, reservoir, edge };
+enum class Bulk { none, extracellular, intracellular };
 enum class PhaseFieldScheme { paper, production };
 enum class StepRule { guarded, ramp };
 enum class BendingUnknown { moment, f };
@@ -75,6 +76,10 @@ struct MoleculeParameters {
     double molecule_area = 0;
     double edge_speed = 0;
     double pool_area = 0;
+    Bulk bulk = Bulk::none;
+    double bulk_diffusivity = 0;
+    double bulk_concentration = 0;
+    double bulk_reach = 0;
 };
 
 /// What scheme `paper` alone reads.

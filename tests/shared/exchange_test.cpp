@@ -74,23 +74,39 @@ TEST_CASE("attachment slows down as the pool is used up, detachment does not") {
     CHECK(exchange_law(n).rate(0.5, 0.0, 1000.0) == Approx(0.75 * exchange_law(edge()).rate(0.5, 0.0, 0.0)));
 }
 
+TEST_CASE("attachment slows down as the bulk is depleted, detachment does not") {
+    const ExchangeLaw law = exchange_law(reservoir()), growth = exchange_law(edge());
+    CHECK(law.rate(0.0, 0.0, 0.0, 0.25) == Approx(0.25 * 0.3));
+    CHECK(law.rate(1.0, 0.0, 0.0, 0.25) == Approx(-0.2));
+    CHECK(growth.rate(0.5, 0.0, 0.0, 0.25) == Approx(0.25 * growth.rate(0.5, 0.0, 0.0)));
+}
+
 TEST_CASE("an exchange rate's derivatives are those of its value") {
     MoleculeParameters m = reservoir(), n = edge();
     m.pool_area = n.pool_area = 5000;
     m.curvature_sensing = 0.7, m.molecule_area = 3;
     const ExchangeLaw law =
         GENERATE_COPY(values({exchange_law(m), exchange_law(n), ExchangeLaw(CooperativeExchange{0.4})}));
-    using D = Dual<3>;
-    const std::array<double, 3> at{0.37, 1.2, 2100};
-    const D exact = law.rate(D::variable(at[0], 0), D::variable(at[1], 1), D::variable(at[2], 2));
-    CHECK(exact.value == Approx(law.rate(at[0], at[1], at[2])).epsilon(1e-15));
-    for (std::size_t i = 0; i < 3; ++i) {
-        std::array<double, 3> up = at, down = at;
+    using D = Dual<4>;
+    const std::array<double, 4> at{0.37, 1.2, 2100, 0.6};
+    const auto rate = [&law](const auto& x) { return law.rate(x[0], x[1], x[2], x[3]); };
+    std::array<D, 4> variables;
+    for (std::size_t i = 0; i < at.size(); ++i) variables[i] = D::variable(at[i], i);
+    const D exact = rate(variables);
+    CHECK(exact.value == Approx(rate(at)).epsilon(1e-15));
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        std::array<double, 4> up = at, down = at;
         const double step = 1e-5 * at[i];  // central differences: relative errors of 1e-10
         up[i] += step, down[i] -= step;
-        const double slope = (law.rate(up[0], up[1], up[2]) - law.rate(down[0], down[1], down[2])) / (2 * step);
-        CHECK(exact.partial[i] == Approx(slope).epsilon(1e-8).margin(1e-14));
+        CHECK(exact.partial[i] == Approx((rate(up) - rate(down)) / (2 * step)).epsilon(1e-8).margin(1e-14));
     }
+}
+
+TEST_CASE("an engine without a bulk refuses it by its name") {
+    Parameters parameters;
+    CHECK_NOTHROW(require_no_bulk(parameters, "boundary-integral"));
+    parameters.molecules.bulk = Bulk::intracellular;
+    CHECK_THROWS_WITH(require_no_bulk(parameters, "boundary-integral"), Catch::Contains("boundary-integral engine"));
 }
 
 TEST_CASE("an engine without exchange refuses it by its name") {

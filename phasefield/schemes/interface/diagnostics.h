@@ -9,6 +9,15 @@ struct LayerIntegrals {
     double stretching;  // ½ ∫|∇φ| s [nm²]
 };
 
+/// The fluid that the molecules come from.
+struct BulkMeasures {
+    double molecules = 0;  // ∫ χc_b
+    double supply = 1;     // mean of c_b/c_∞ at the membrane
+    double residual = 0;   // |∫ c dA − its first value − what fluid and walls have given| over the first value
+    double made_up = 0;    // what has come through the walls since t = 0, as coat beyond c_∞ times the inflow [nm²]
+    double corrected = 0;  // coat that was put right at the membrane since t = 0 [nm²]
+};
+
 /// What one time step did; collective.
 struct StepDiagnostics {
     double bending_energy;        // (D) [pN nm]
@@ -27,6 +36,7 @@ struct StepDiagnostics {
     double molecule_dissipation = 0;  // ∫ M |∇_Γ μ|² where bending and line energy drive the molecules
     double exchange_rate = 0;         // ∫ j dA [nm²/µs]
     double exchange_power = 0;        // E + E_c that molecules bring when they come [pN nm/µs]
+    BulkMeasures bulk{};
 };
 
 }  // namespace endoflow::phasefield

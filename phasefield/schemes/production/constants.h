@@ -49,6 +49,9 @@ inline constexpr Constant constants[] = {
     {"equal_viscosities", 1e-3, "", "relative difference below which the excess fluidity is round-off"},
     {"smallest_fluidity", 0.5, "", "in the layer, of the smaller one, with harmonic means"},
     {"rim_half_width", 4.5, "ε", "where ψ and G are held at the rim: the layer as far as it weighs anything"},
+    // The bulk (bulk_equations.cpp)
+    {"bulk_floor", 1e-6, "", "χ of the fluid that has no molecules, so that the bulk is defined everywhere"},
+    {"supply_alignment", 1000, "ε²", "keeps what the membrane sees of the bulk constant along the normal"},
     // The past of a step (past.cpp)
     {"last_normal_below", 1e-3, "(1 − φ²)²", "below it the last solution's closest normal takes over"},
     {"last_molecules_normal_below", 1e-4, "(1 − φ²)²",

@@ -19,6 +19,7 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
     const dealii::QGauss<2> quadrature(gauss_points(numerics));
     LocalSystem local(space, quadrature);
     ComponentField molecule_rate(space, molecule_density, quadrature);
+    SupplyAtPoints supply(step.supply, quadrature);
     ComponentField old_distance(space, distance, quadrature), predicted_distance(space, distance, quadrature);
     dealii::Vector<double> values(space.element.n_dofs_per_cell());
     SolutionMeasures out{};
@@ -30,6 +31,7 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
         local.start(box, values);
         const auto &old_psi = old_distance.on(cell, box, before), &guess = predicted_distance.on(cell, box, predicted),
                    &c_rate = molecule_rate.on(cell, box, rate);
+        const auto& bulk = supply.on(cell, box);
         const auto &ur = local.field(velocity_r), &uz = local.field(velocity_z), &psi = local.field(distance),
                    &lambda = local.field(tension), &layer_pressure = local.field(pressure_layer),
                    &c = local.field(molecule_density), &s = local.field(membrane_stretch), &b = local.field(moment),
@@ -77,7 +79,7 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
             }
             if (!step.exchange.none()) {
                 const double coming = step.exchange.rate<double>(
-                    c.value[q], bending_by_concentration(energy, state, c.value[q]), step.molecules);
+                    c.value[q], bending_by_concentration(energy, state, c.value[q]), step.molecules, bulk[q]);
                 diagnostics.exchange_rate += w * density * coming;
                 diagnostics.exchange_power += w * density * coming * potential;
             }

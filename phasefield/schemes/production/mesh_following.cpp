@@ -27,6 +27,7 @@ bool ProductionScheme::adapt_once(const MembraneCurve& curve) {
 
     Transfer transfer(space_.dofs);
     transfer.prepare_for_coarsening_and_refinement(addresses(solutions_));
+    if (bulk_) bulk_->before_adaptation();
     mesh_->execute_coarsening_and_refinement();
     distribute();
     std::vector<Vector> carried(solutions_.size(), space_.vector());
@@ -36,6 +37,7 @@ bool ProductionScheme::adapt_once(const MembraneCurve& curve) {
     for (auto& vector : carried) space_.hanging_nodes.distribute(vector);
     solutions_ = std::move(carried);
     for (const auto& solution : solutions_) solution.update_ghost_values();
+    if (bulk_) bulk_->after_adaptation();
     return true;
 }
 
@@ -47,6 +49,10 @@ void ProductionScheme::follow(const MembraneCurve& curve) {
     if (!adapted) return;
     if (numbers_.thickness) numbers_.thickness = thickness_on(*mesh_, numbers_.thickness->curve());
     solver_.reinit(space_);
+    if (bulk_) {
+        bulk_->renew();
+        numbers_.supply = bulk_->supply();
+    }
     // Cells are coarsened outside of the layer alone; what that changes in ∫δ_m c is restored to round-off. s, a
     // density, stays: what changes in ∫δ_m s is the area that the layer measures, and would be a strain.
     restore_molecules();
@@ -70,6 +76,7 @@ void ProductionScheme::save(const std::filesystem::path& directory, Checkpoint& 
         vectors.push_back(vector);
     }
     transfer.prepare_for_serialization(vectors);
+    if (bulk_) bulk_->save(checkpoint, solver_.supply_of_factors());
     mesh_->save((directory / "mesh").string());
     MPI_Barrier(mesh_->get_communicator());
 }
@@ -93,7 +100,9 @@ StepOutcome ProductionScheme::load(const std::filesystem::path& directory, const
     for (auto& vector : of_factors) targets.push_back(&vector);
     transfer.deserialize(targets);
     for (const Vector* vector : targets) vector->update_ghost_values();
+    if (bulk_) numbers_.supply = bulk_->load(checkpoint);
     solver_.load(space_, numbers_, checkpoint, of_factors);
+    if (bulk_) numbers_.supply = bulk_->supply();
     return present();
 }
 

@@ -37,6 +37,7 @@ class PastFields {
           step_(&step),
           history_(&history),
           membrane_(contour_segments(contour_fields(space, history.solutions->front()))),
+          supply_(step.supply, quadrature),
           values_(space.element.n_dofs_per_cell()) {
         for (const unsigned int degree : space.degrees)
             if (!bases_.contains(degree)) bases_.emplace(degree, ScalarBasis(degree, quadrature));
@@ -57,6 +58,7 @@ class PastFields {
         // The predicted normal in the layer. Far from it, where extrapolation would amplify what is there and ψ may
         // have valleys, the membrane's at the last solution: with those of ψ itself valleys would stay for ever.
         membrane_.start(box);
+        const auto& supply = supply_.on(cell, box);
         cell->get_dof_values(history_->solutions->front(), values_);
         field(distance, box, psi_);
         cell->get_dof_values(*history_->extrapolated, values_);
@@ -72,6 +74,7 @@ class PastFields {
             if (step_->pole_force && well > loaded_layer)
                 points[q].pole_force = step_->pole_force->at(box.r0 + box.hr * x[0], box.z0 + box.hz * x[1]);
             const double around = predicted_.r[q] / (box.r0 + box.hr * x[0]);
+            points[q].bulk = supply[q];
             points[q].normal = normal(predicted_.r[q], predicted_.z[q], last_normal_below);
             const GradientChange change =
                 gradient_change(points[q].normal, predicted_.rr[q], predicted_.rz[q], predicted_.zz[q], around);
@@ -115,6 +118,7 @@ class PastFields {
     const StepNumbers* step_;
     const StepPast* history_;
     ClosestNormal membrane_;
+    SupplyAtPoints supply_;
     std::map<unsigned int, ScalarBasis> bases_;
     dealii::Vector<double> values_;
     std::vector<double> coefficients_, ahead_r_, ahead_z_;

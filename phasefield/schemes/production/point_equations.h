@@ -34,7 +34,7 @@ Fields<Number> point_equations(const Fields<Number>& x, double r, const PointPas
     add_inextensibility(x, p, past, r, step, row);
     add_motion(x, p, past, step, row);
     add_molecules(x, p, force, past, step, energy, row);
-    add_exchange(x, p, force.sheet, step, energy, row);
+    add_exchange(x, p, force.sheet, past, step, energy, row);
     add_stretching(x, p, past, step, row);
     return row;
 }

@@ -32,6 +32,7 @@ struct PointPast {
     double arc = 1, metric = 1;       // sheet_arc, sheet_metric
     double even = 1;                  // evenness
     double pole_force = 0;            // along z, per area of membrane [pN/nm²]
+    double bulk = 1;                  // c_b/c_∞ of the fluid that molecules come from
 };
 
 /// What the equations need of ψ's second derivatives [1/nm]: n·∇∇ψ with the predicted n, how ∇ψ changes along the

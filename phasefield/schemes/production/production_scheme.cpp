@@ -45,6 +45,9 @@ ProductionScheme::ProductionScheme(const Parameters& parameters, MPI_Comm commun
       space_(*mesh_, field_degrees(parameters.phase_field)),
       numbers_(parameters, membrane_weight(parameters.fluid, parameters.phase_field.viscosity_mean)),
       solver_(parameters, energy_, communicator, newton_part * position_tolerance(parameters)),
+      bulk_(parameters.molecules.bulk == Bulk::none
+                ? nullptr
+                : std::make_unique<BulkTransport>(parameters, *mesh_, communicator)),
       nominal_(first_step(parameters)) {}
 
 namespace {
@@ -78,6 +81,21 @@ class PhysicalFields : public dealii::DataPostprocessor<2> {
 
   private:
     const StepNumbers* step_;
+};
+
+/// c_b [1/nm³], which means something where the fluid is that has it.
+class BulkConcentration : public dealii::DataPostprocessorScalar<2> {
+  public:
+    explicit BulkConcentration(const MoleculeParameters& molecules)
+        : dealii::DataPostprocessorScalar<2>("bulk_concentration", dealii::update_values),
+          initial_(molecules.bulk_concentration) {}
+    void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<2>& in,
+                               std::vector<dealii::Vector<double>>& out) const override {
+        for (std::size_t q = 0; q < out.size(); ++q) out[q](0) = initial_ * (1 - in.solution_values[q](depletion));
+    }
+
+  private:
+    double initial_;
 };
 
 }  // namespace
@@ -128,7 +146,11 @@ StepOutcome ProductionScheme::start() {
     times_ = {0};
     masses_ = molecules_of(space_, numbers_, solutions_);
     numbers_.molecules = masses_.front();
-    return present();
+    StepOutcome out = present();
+    const BdfCoefficients none{};
+    if (bulk_)
+        out.diagnostics.bulk = bulk_->start({space_, energy_, numbers_, none, solutions_.front()}, masses_.front());
+    return out;
 }
 
 std::size_t ProductionScheme::order() const {
@@ -168,6 +190,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     trial_.reinit(guess, true);  // assignment alone could keep the ghosts of an earlier mesh
     trial_ = guess;
     trial_.update_ghost_values();
+    if (bulk_) numbers_.supply = bulk_->foresee({space_, energy_, numbers_, bdf, guess});
     const StepPast history(space_, numbers_, solutions_, bdf.past, extrapolation_weights(end, times_, order()), guess);
     solver_.solve(space_, numbers_, history, trial_);
 
@@ -182,6 +205,9 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
                              [this](double psi) { return equilibrium_profile(psi, parameters_.phase_field.epsilon); });
     measures.diagnostics.load_power = load_power(space_, numbers_, history, trial_);
     trial_integrals_ = measures.integrals;
+    if (bulk_)
+        measures.diagnostics.bulk =
+            bulk_->take({space_, energy_, numbers_, bdf, trial_}, masses_, trial_integrals_.molecules, tau);
     trial_motion_ = measures.layer_motion;
     const double farthest = largest_motion * parameters_.phase_field.epsilon;
     const bool estimated = times_.size() > order();
@@ -191,6 +217,15 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     if (estimated)
         trial_factor_ = std::min(
             trial_factor_, safety * std::pow(allowed / std::max(error, 1e-12), 1 / (1 + static_cast<double>(order()))));
+    // A bulk that is being depleted changes the rate at which molecules come in times of its own.
+    double wrong_molecules = 0;
+    if (bulk_ && estimated) {
+        wrong_molecules = std::abs(trial_integrals_.molecules / numbers_.molecules - 1) *
+                          error_fraction(end, times_, order()) /
+                          (error_part * time_tolerance(parameters_, default_tolerance));
+        trial_factor_ = std::min(trial_factor_, safety * std::pow(std::max(wrong_molecules, 1e-12),
+                                                                  -1 / (1 + static_cast<double>(order()))));
+    }
     if (trial_motion_ > 0) trial_factor_ = std::min(trial_factor_, safety * farthest / trial_motion_);
     StepOutcome outcome{measures.diagnostics, {}, {}};
     if (!std::isfinite(measures.diagnostics.bending_energy))
@@ -199,6 +234,8 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
         outcome.rejection = "motion of " + std::to_string(trial_motion_ / parameters_.phase_field.epsilon) + " ε";
     else if (error > tolerated_excess * allowed)
         outcome.rejection = "error " + std::to_string(error) + " nm";
+    else if (wrong_molecules > tolerated_excess)
+        outcome.rejection = "error of the molecules " + std::to_string(wrong_molecules) + " times the allowed one";
     else
         outcome.contour = contour(trial_);
     return outcome;
@@ -214,6 +251,7 @@ void ProductionScheme::keep(double time, double tau, const StepOutcome& outcome)
         masses_.pop_back();
     }
     for (const auto& solution : solutions_) solution.update_ghost_values();  // copies do not have them
+    if (bulk_) bulk_->keep(highest_order + 1);
     integrals_ = trial_integrals_;
     if (!numbers_.exchange.none() || energy_.coupled) moved_ += edge_motion(membrane_, outcome.contour.curve);
     membrane_ = outcome.contour.curve;
@@ -261,6 +299,12 @@ void ProductionScheme::write_fields(const std::filesystem::path& run_directory, 
     const PhysicalFields physical(numbers_);
     data.add_data_vector(space_.dofs, solution, names, meaning);
     data.add_data_vector(space_.dofs, solution, physical);
+    Vector bulk;
+    const BulkConcentration concentration(parameters_.molecules);
+    if (bulk_) {
+        bulk = bulk_->combined(extrapolation_weights(time, times_, times_.size()));
+        data.add_data_vector(bulk_->space().dofs, bulk, concentration);
+    }
     data.build_patches(space_.degrees[distance]);
     write_field_file(run_directory, times, time, mesh_->get_communicator(), data);
 }

@@ -2,6 +2,7 @@
 
 #include "phasefield/fem/mesh.h"
 #include "phasefield/schemes/interface/scheme.h"
+#include "phasefield/schemes/production/bulk_transport.h"
 #include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/diagnostics.h"
 #include "phasefield/schemes/production/step_solver.h"
@@ -57,9 +58,10 @@ class ProductionScheme : public Scheme {
     Space space_;
     StepNumbers numbers_;
     StepSolver solver_;
-    std::vector<Vector> solutions_;  // newest first
-    std::vector<double> times_;      // of them [µs]
-    std::vector<double> masses_;     // ∫ c dA of them [nm²]
+    std::unique_ptr<BulkTransport> bulk_;  // none: it is never depleted
+    std::vector<Vector> solutions_;        // newest first
+    std::vector<double> times_;            // of them [µs]
+    std::vector<double> masses_;           // ∫ c dA of them [nm²]
     LayerIntegrals integrals_{};
     MembraneCurve membrane_;
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "phasefield/schemes/production/bulk_supply.h"
 #include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/layer_thickness.h"
 #include "phasefield/schemes/production/membrane_weight.h"
@@ -59,6 +60,7 @@ struct StepNumbers {
     double molecules = 0;                               // ∫ c dA, predicted [nm²]: what the pool has lost
     std::shared_ptr<const CellThickness> thickness{};   // of the layer; none: uniform
     std::shared_ptr<const PoleForce> pole_force{};      // none: zero
+    std::shared_ptr<const BulkSupply> supply{};         // none: the bulk is never depleted
 
     /// ε at the point (x, y) of a unit cell.
     [[nodiscard]] PointThickness thickness_at(std::size_t active_cell, const CellBox& box, double x, double y) const {

@@ -47,6 +47,7 @@ Vector StepSolver::factorise(const Problem& problem, const Vector& solution) {
                problem.numbers->molecules,
                problem.numbers->thickness,
                problem.numbers->pole_force,
+               problem.numbers->supply,
                history.weights,
                history.ahead,
                {solution}};

@@ -28,9 +28,13 @@ class StepSolver {
     /// What the factors were made from, so that a restart goes on with the same ones: vectors on the present mesh, and
     /// numbers. The vectors are addresses of the solver's own.
     [[nodiscard]] std::vector<const Vector*> save(Checkpoint& checkpoint) const;
+    /// The bulk that the factors have seen, if there are any.
+    [[nodiscard]] std::shared_ptr<const BulkSupply> supply_of_factors() const {
+        return system_.has_factors() ? origin_.supply : nullptr;
+    }
     /// How many vectors were saved.
     [[nodiscard]] static std::size_t saved_vectors(const Checkpoint& checkpoint);
-    /// Makes the factors again; `numbers` as of any step, `vectors` with ghost values.
+    /// Makes the factors again; `numbers` as of any step, but with supply_of_factors(), `vectors` with ghost values.
     void load(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint,
               const std::vector<Vector>& vectors);
 
@@ -58,6 +62,7 @@ class StepSolver {
         double rate = 0, speed = 0, molecules = 0;
         std::shared_ptr<const CellThickness> thickness;
         std::shared_ptr<const PoleForce> pole_force;
+        std::shared_ptr<const BulkSupply> supply;
         std::vector<double> weights, ahead;
         std::vector<Vector> vectors;  // the iterate, the guess, the solutions before, newest first
     };

@@ -95,13 +95,14 @@ void add_molecules(const Fields<Number>& x, const PointGeometry<Number>& p, cons
     add_surface_diffusion<Number>(c, -metric * law.edge_width * p.layer.delta, p, row[molecule_potential]);
 }
 
-/// Molecules that come from outside and leave, δ_m j.
+/// Molecules that come from outside and leave, δ_m j; the bulk that they come from is that of the step.
 template <class Number>
 void add_exchange(const Fields<Number>& x, const PointGeometry<Number>& p, const SheetState<Number>& sheet,
-                  const StepNumbers& step, const LayerEnergy& energy, Fields<Number>& row) {
+                  const PointPast& past, const StepNumbers& step, const LayerEnergy& energy, Fields<Number>& row) {
     if (step.exchange.none()) return;
     const Number& c = x[molecule_density].value;
-    const Number rate = step.exchange.rate<Number>(c, bending_by_concentration(energy, sheet, c), step.molecules);
+    const Number rate =
+        step.exchange.rate<Number>(c, bending_by_concentration(energy, sheet, c), step.molecules, past.bulk);
     row[molecule_density].value = row[molecule_density].value - p.density * rate;
 }
 
