@@ -17,7 +17,6 @@ namespace {
 
 constexpr double bulk_floor = constant("bulk_floor");
 constexpr double supply_alignment = constant("supply_alignment");
-constexpr double shortest_gradient = constant("shortest_gradient");
 
 using Cell = dealii::DoFHandler<2>::active_cell_iterator;
 
@@ -62,7 +61,7 @@ class BulkPoints {
             const PointThickness thickness = step.thickness_at(cell->active_cell_index(), box, at[0], at[1]);
             const double epsilon = thickness.value;
             const auto layer = layer_profile(psi.value[q], epsilon);
-            const double length = std::max(std::hypot(psi.r[q], psi.z[q]), shortest_gradient);
+            const double length = std::max(std::hypot(psi.r[q], psi.z[q]), constant("shortest_gradient"));
             BulkPoint point{quadrature_->weight(q) * box.hr * box.hz * r,
                             bulk_indicator(layer.phi, *problem_->numbers),
                             ur.value[q],
