@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "../shared/temporary_directory.h"
+#include "flat_case.h"
 #include "phasefield/fem/mesh.h"
 #include "phasefield/schemes/production/bulk_transport.h"
 #include "run_steps.h"
@@ -18,17 +19,13 @@ using namespace endoflow::phasefield::production;
 
 namespace {
 
-/// A membrane that moves little, with molecules that stay where they are and come from the fluid above.
-Parameters flat_case() {
-    Parameters p = small_case();
-    p.membrane.spontaneous_curvature = 5e-3;
-    p.membrane.bending_stiffness_coated = p.membrane.bending_stiffness;
-    p.molecules.transport = Transport::advection;
+/// A membrane that moves little, with molecules that come from a reservoir.
+Parameters exchanging_case() {
+    Parameters p = flat_case(5e-3, 2e-5);
     p.molecules.exchange = Exchange::reservoir;
     p.molecules.on_rate = 200;
     p.molecules.off_rate = 100;
     p.molecules.molecule_area = 50;
-    p.time.initial_step = 2e-5;
     return p;
 }
 
@@ -187,7 +184,7 @@ TEST_CASE("walls beyond which the bulk is never depleted supply the membrane", "
 }
 
 TEST_CASE("a bulk that is mixed at once is a pool, and a large one is the reservoir", "[bulk]") {
-    Parameters p = flat_case();
+    Parameters p = exchanging_case();
     constexpr double end = 1e-3;
     const double without = mass_after(p, end), area = std::numbers::pi * std::pow(p.domain.radius, 2);
     const double first = mass_after(p, 0);
@@ -243,7 +240,7 @@ TEST_CASE("fluid and membrane together keep their molecules while the membrane m
 
 TEST_CASE("a membrane that takes up all it meets is no stiff problem", "[bulk]") {
     // Within a step the layer would be emptied 1e4 times.
-    Parameters p = flat_case();
+    Parameters p = exchanging_case();
     p.molecules.on_rate = 1e4;
     p.molecules.off_rate = 0;
     add_bulk(p, 1e-2, 2e4);
@@ -279,7 +276,7 @@ TEST_CASE("a membrane that takes up all it meets is no stiff problem", "[bulk]")
 
 TEST_CASE("a run with a bulk that is continued goes on as it would have", "[bulk]") {
     const TemporaryDirectory directory;
-    Parameters p = flat_case();
+    Parameters p = exchanging_case();
     add_bulk(p, 0.3, 1e4);
     ProductionScheme scheme(p, MPI_COMM_SELF), continued(p, MPI_COMM_SELF);
     scheme.start();
@@ -299,7 +296,7 @@ TEST_CASE("a run with a bulk that is continued goes on as it would have", "[bulk
 }
 
 TEST_CASE("a bulk on two processes is the same", "[mpi]") {
-    Parameters p = flat_case();
+    Parameters p = exchanging_case();
     add_bulk(p, 0.3, 1e4);
     const auto supply = [&](MPI_Comm communicator) {
         ProductionScheme scheme(p, communicator);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "flat_case.h"
 #include "phasefield/driver/molecule_balance.h"
 #include "run_steps.h"
 #include "small_case.h"
@@ -12,21 +13,6 @@
 using namespace endoflow;
 using namespace endoflow::phasefield;
 using namespace endoflow::phasefield::production;
-
-namespace {
-
-/// A membrane that stays flat to some pm, with molecules that stay where they are. Exactly at rest, all increments
-/// would be round-off, of which Newton's method waits for the hundredth part.
-Parameters flat_case() {
-    Parameters p = small_case();
-    p.membrane.spontaneous_curvature = 1e-4;
-    p.membrane.bending_stiffness_coated = p.membrane.bending_stiffness;
-    p.molecules.transport = Transport::advection;
-    p.time.initial_step = 1e-4;
-    return p;
-}
-
-}  // namespace
 
 TEST_CASE("energetic coupling: E + E_c falls by what fluid and molecules dissipate", "[molecules]") {
     Parameters p = small_case();
@@ -79,7 +65,7 @@ TEST_CASE("molecules do not crowd within a cell where the energy depends strongl
 }
 
 TEST_CASE("a flat coat takes molecules from a reservoir at the rate k_on + k_off", "[molecules]") {
-    Parameters p = flat_case();
+    Parameters p = flat_case(1e-4, 1e-4);
     p.molecules.exchange = Exchange::reservoir;
     p.molecules.on_rate = 200;
     p.molecules.off_rate = 100;

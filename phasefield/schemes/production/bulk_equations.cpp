@@ -22,7 +22,7 @@ using Cell = dealii::DoFHandler<2>::active_cell_iterator;
 
 /// χ of the fluid that has the molecules.
 double bulk_indicator(double phi, const BulkNumbers& numbers) {
-    return 0.5 + numbers.sign * 0.25 * phi * (3 - phi * phi) + bulk_floor;
+    return 0.5 + numbers.sign * membrane_indicator(phi, {}) + bulk_floor;  // of δ itself
 }
 
 /// What the bulk's equations ask for at one quadrature point; `measure` is r dr dz.
