@@ -35,14 +35,13 @@ LayerProfile<Number> layer_profile(const Number& psi, double epsilon) {
 /// decide alone, for there normals may cross, and a step multiplies δ by up to exp(2√2 motion/ε).
 template <class Number>
 Number cut_density(const LayerProfile<Number>& layer) {
-    return layer.delta * layer.squared_well / (layer.squared_well + weight_cut);
+    return layer.delta * kept_by_cut(layer.squared_well, weight_cut);
 }
 
 /// δ_m [1/nm] with its tails cut off.
 template <class Number>
 Number membrane_density(const LayerProfile<Number>& layer, const MembraneWeight& w) {
-    const Number phi2 = layer.phi * layer.phi;
-    return cut_density(layer) * (w.constant + phi2 * (w.square + w.fourth * phi2));
+    return cut_density(layer) * weight_factor(layer.phi * layer.phi, w);
 }
 
 /// ∫ δ_m dψ from φ = 0, with the tails cut off: what is cut off is ¾ f (A x − B x² + c x³)/(x² + f) dφ with x = 1 − φ²,

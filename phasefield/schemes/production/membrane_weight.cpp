@@ -117,10 +117,8 @@ double integral_over_half(const std::function<double(double)>& integrand) {
     return boost::math::quadrature::tanh_sinh<double>().integrate(integrand, 0.0, 1.0);
 }
 
-/// What is kept of a weight by a cut at f.
 double kept(double phi, double f) {
-    const double squared = (1 - phi * phi) * (1 - phi * phi);
-    return squared / (squared + f);
+    return kept_by_cut((1 - phi * phi) * (1 - phi * phi), f);
 }
 
 /// dψ δ over dφ, what the energy's weight keeps of it.
@@ -143,8 +141,7 @@ double cut_norm() {
 
 double cut_norm(const MembraneWeight& weight) {
     return 0.5 / integral_over_half([&](double phi) {
-               const double phi2 = phi * phi, factor = weight.constant + phi2 * (weight.square + phi2 * weight.fourth);
-               return energy_part(phi) * factor * kept(phi, weight_cut);
+               return energy_part(phi) * weight_factor(phi * phi, weight) * kept(phi, weight_cut);
            });
 }
 

@@ -28,6 +28,18 @@ double cut_norm(const MembraneWeight& weight);
 /// ∫ ψ² δ²/(δ + f) dψ [ε²].
 double cut_moment();
 
+/// What a cut at f keeps of a weight where (1 − φ²)² is `squared_well`.
+template <class Number>
+Number kept_by_cut(const Number& squared_well, double f) {
+    return squared_well / (squared_well + f);
+}
+
+/// δ_m/δ at φ².
+template <class Number>
+Number weight_factor(const Number& phi2, const MembraneWeight& w) {
+    return w.constant + phi2 * (w.square + phi2 * w.fourth);
+}
+
 /// H_m(φ) with dH_m/dψ = δ_m: −½ … ½, and a little beyond within the layer.
 template <class Number>
 Number membrane_indicator(const Number& phi, const MembraneWeight& w) {

@@ -29,11 +29,17 @@ constexpr double almost_all = constant("almost_all");
 constexpr double tolerated_excess = constant("tolerated_excess");
 constexpr double newton_part = constant("newton_part");
 constexpr double smallest_step = constant("smallest_step");
+constexpr double negligible_error = 1e-9;  // over the one allowed: the step may grow as far as it ever may
 constexpr double largest_motion = constant("largest_motion");
 
-/// Largest error of the membrane's position per step [nm].
+/// Largest relative error of a step.
+double step_tolerance(const Parameters& p) {
+    return error_part * time_tolerance(p, default_tolerance);
+}
+
+/// The same of the membrane's position [nm].
 double position_tolerance(const Parameters& p) {
-    return error_part * time_tolerance(p, default_tolerance) * size_of_membrane(p.domain);
+    return step_tolerance(p) * size_of_membrane(p.domain);
 }
 
 }  // namespace
@@ -210,21 +216,17 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
             bulk_->take({space_, energy_, numbers_, bdf, trial_}, masses_, trial_integrals_.molecules, tau);
     trial_motion_ = measures.layer_motion;
     const double farthest = largest_motion * parameters_.phase_field.epsilon;
-    const bool estimated = times_.size() > order();
-    const double error = estimated ? measures.step_difference * error_fraction(end, times_, order()) : 0;
-    const double allowed = position_tolerance(parameters_);
     trial_factor_ = since_start_ < first_steps ? 1 : largest_growth;
-    if (estimated)
-        trial_factor_ = std::min(
-            trial_factor_, safety * std::pow(allowed / std::max(error, 1e-12), 1 / (1 + static_cast<double>(order()))));
-    // A bulk that is being depleted changes the rate at which molecules come in times of its own.
-    double wrong_molecules = 0;
-    if (bulk_ && estimated) {
-        wrong_molecules = std::abs(trial_integrals_.molecules / numbers_.molecules - 1) *
-                          error_fraction(end, times_, order()) /
-                          (error_part * time_tolerance(parameters_, default_tolerance));
-        trial_factor_ = std::min(trial_factor_, safety * std::pow(std::max(wrong_molecules, 1e-12),
-                                                                  -1 / (1 + static_cast<double>(order()))));
+    double wrong_position = 0, wrong_molecules = 0;  // errors of the step over those allowed
+    if (times_.size() > order()) {
+        const double fraction = error_fraction(end, times_, order());
+        wrong_position = fraction * measures.step_difference / position_tolerance(parameters_);
+        // A bulk that is being depleted changes the rate at which molecules come in times of its own.
+        if (bulk_)
+            wrong_molecules =
+                fraction * std::abs(trial_integrals_.molecules / numbers_.molecules - 1) / step_tolerance(parameters_);
+        const double larger = std::max({wrong_position, wrong_molecules, negligible_error});
+        trial_factor_ = std::min(trial_factor_, safety * std::pow(larger, -1 / (1 + static_cast<double>(order()))));
     }
     if (trial_motion_ > 0) trial_factor_ = std::min(trial_factor_, safety * farthest / trial_motion_);
     StepOutcome outcome{measures.diagnostics, {}, {}};
@@ -232,8 +234,8 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
         outcome.rejection = "the energy is not a number";
     else if (trial_motion_ > farthest)
         outcome.rejection = "motion of " + std::to_string(trial_motion_ / parameters_.phase_field.epsilon) + " ε";
-    else if (error > tolerated_excess * allowed)
-        outcome.rejection = "error " + std::to_string(error) + " nm";
+    else if (wrong_position > tolerated_excess)
+        outcome.rejection = "error of the position " + std::to_string(wrong_position) + " times the allowed one";
     else if (wrong_molecules > tolerated_excess)
         outcome.rejection = "error of the molecules " + std::to_string(wrong_molecules) + " times the allowed one";
     else
