@@ -60,7 +60,7 @@ inline constexpr Constant constants[] = {
     {"shortest_gradient", 0.3, "", "below it normals fade: they are about to cross"},
     // The layer's thickness (layer_thickness.cpp)
     {"thinnest", 0.125, "phase_field.epsilon", "the layer, however narrow the membrane"},
-    {"room_needed", 4.5, "ε", "from the membrane to where its layer meets another one: 4e-6 of δ are left there"},
+    {"room_needed", 6.5, "ε", "from the membrane to where its layer meets another one: 2e-7 of δ are left there"},
     {"thinning_slope", 0.1, "", "of the thickness along the membrane, at most"},
     {"thinning_window", 1, "phase_field.epsilon", "half the arc from which the membrane's curvature is taken"},
     // Steps (production_scheme.cpp)
