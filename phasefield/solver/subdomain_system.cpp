@@ -16,10 +16,11 @@ SubdomainSystem::SubdomainSystem(MPI_Comm communicator, std::string name)
 
 void SubdomainSystem::reinit(const std::vector<std::vector<Index>>& cells, const dealii::IndexSet& owned,
                              const dealii::IndexSet& relevant, const dealii::AffineConstraints<double>& constraints) {
+    factors_.reset();  // before anything new: they and the matrix are most of a run's memory
+    matrix_.clear();
     number(cells, owned, relevant, constraints);
     dealii::DynamicSparsityPattern pattern(size_, size_);
     for (const auto& cell : cells_) constraints_.add_entries_local_to_global(cell, pattern, false);
-    matrix_.clear();
     pattern_.copy_from(pattern);
     matrix_.reinit(pattern_);
     right_hand_side_.reinit(size_);
@@ -34,7 +35,9 @@ void SubdomainSystem::use(Precision precision) {
     if (precision == precision_) return;
     precision_ = precision;
     factors_valid_ = false;
-    if (factors_) factors_ = mumps_factors(pattern_, shared_, precision_);
+    if (!factors_) return;
+    factors_.reset();
+    factors_ = mumps_factors(pattern_, shared_, precision_);
 }
 
 void SubdomainSystem::number(const std::vector<std::vector<Index>>& cells, const dealii::IndexSet& owned,
