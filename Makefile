@@ -70,7 +70,7 @@ test: test-packages
 	@$(MAKE) --no-print-directory configure
 	cmake --build $(build)
 	@$(MAKE) --no-print-directory lint
-	ctest --test-dir $(build) --output-on-failure --timeout 3600 $(tests)
+	ctest --test-dir $(build) --parallel $(CORES) --output-on-failure --timeout 3600 $(tests)
 
 bench: build
 	cmake --build $(build) --target bench-ring-kernels
@@ -94,11 +94,13 @@ docs-check: build
 format:
 	git ls-files '*.h' '*.cpp' | xargs clang-format -i
 
-# clang-tidy sees each file by itself, so that one cannot live on what another includes.
+# clang-tidy sees a target's files together: it looks through the headers of all they include each time it is called. That a
+# file stands by itself, and does not live on what another includes, is what builds with UNITY=OFF see.
 lint:
 	git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
 	tools/pyflakes
-	@cmake --preset $(preset) -B $(build)/lint -DENDOFLOW_PHASEFIELD=$(PHASEFIELD) -DENDOFLOW_UNITY=OFF > /dev/null
+	tools/unused_using
+	@cmake --preset $(preset) -B $(build)/lint -DENDOFLOW_PHASEFIELD=$(PHASEFIELD) -DENDOFLOW_UNITY=ON > /dev/null
 	tools/clang_tidy $(build)/lint $(CORES)
 
 clean:

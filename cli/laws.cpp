@@ -11,7 +11,7 @@ namespace endoflow::cli {
 
 namespace {
 
-constexpr int steps = 100;  // values of c between 0 and 1
+constexpr int concentration_steps = 100;  // of c, from 0 to 1
 
 }  // namespace
 
@@ -28,8 +28,8 @@ std::string constitutive_laws_csv(const MembraneParameters& membrane) {
         text += fmt::format(",{0}_b_pN_nm,{0}_H0_per_nm", name);
     }
     text += "\n";
-    for (int i = 0; i <= steps; ++i) {
-        const double c = static_cast<double>(i) / steps;
+    for (int i = 0; i <= concentration_steps; ++i) {
+        const double c = static_cast<double>(i) / concentration_steps;
         text += fmt::format("{:.15g}", c);
         for (const BendingModel& model : models)
             text += fmt::format(",{:.15g},{:.15g}", model.stiffness(c).value, model.spontaneous_curvature(c).value);

@@ -22,7 +22,7 @@ struct SmoothCoordinate {
     double (*u)(double x);
 };
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr SmoothCoordinate from_axis{[](double u) { return u * u; }, [](double u) { return 2 * u; },
                                      [](double x) { return std::sqrt(x); }};
 constexpr SmoothCoordinate from_pole_to_pole{[](double u) { return std::pow(std::sin(0.5 * pi * u), 2); },

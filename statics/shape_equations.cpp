@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t unknowns = static_cast<std::size_t>(state::equilibrium_states) + 2;  // states and globals
 using Number = Dual<unknowns>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// What a case says to the equations.
 struct Setting {

@@ -22,8 +22,6 @@ namespace endoflow::statics {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// Parameters that a stationary shape depends on.
 std::vector<std::string> continuable(const Parameters& parameters) {
     std::vector<std::string> keys{"membrane.spontaneous_curvature", "membrane.bending_stiffness",
@@ -60,7 +58,7 @@ struct ShapeRecord {
     [[nodiscard]] double apex_height() const { return curve.z.front() - curve.z.back(); }
 };
 
-const std::vector<OwnColumn<ShapeRecord>>& own_columns() {
+const std::vector<OwnColumn<ShapeRecord>>& own_shape_columns() {
     using R = ShapeRecord;
     static const std::vector<OwnColumn<R>> columns{
         {"patch_radius_nm", "molecules.patch_radius of the case",
@@ -95,7 +93,7 @@ Json write_state(StateWriter& writer, const Parameters& named, const Parameters&
     const ShapeIntegrals integrals = shape_integrals(solved, point.solution, rule);
     const Loads loads = loads_of(solved);
     const ShapeRecord record{named, curve, point, integrals, loads};
-    Json figures = writer.write(curve, BendingModel(solved.membrane), own_values(own_columns(), record));
+    Json figures = writer.write(curve, BendingModel(solved.membrane), own_values(own_shape_columns(), record));
     figures["apex_height_nm"] = record.apex_height();
     figures["tension_at_axis_pN_per_nm"] = curve.lambda.front();
     const bool coupled = energetically_coupled(solved.molecules);
@@ -178,7 +176,7 @@ VesicleFamily parse_family(const std::string& text) {
 EngineIdentity identity(const Parameters& parameters) {
     return {"statics",
             {{"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}},
-            is_vesicle(parameters) ? vesicle_columns() : texts_of(own_columns()),
+            is_vesicle(parameters) ? vesicle_columns() : texts_of(own_shape_columns()),
             1,
             1,
             RowOrder::along_a_branch};

@@ -7,8 +7,6 @@
 
 namespace endoflow::statics {
 
-using Json = nlohmann::ordered_json;
-
 Json StateWriter::write(const MembraneCurve& curve, const BendingModel& bending, std::vector<double> extra) {
     const Observables seen = measure(curve, bending);
     HistoryRow row;

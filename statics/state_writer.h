@@ -8,6 +8,8 @@
 
 namespace endoflow::statics {
 
+using Json = nlohmann::ordered_json;
+
 /// Points of the curves in shapes.h5.
 inline constexpr std::size_t curve_points = 1001;
 
@@ -20,7 +22,7 @@ class StateWriter {
     [[nodiscard]] int count() const { return count_; }
 
     /// Writes one shape, `extra` going to the engine's own columns; returns what can be measured on it.
-    nlohmann::ordered_json write(const MembraneCurve& curve, const BendingModel& bending, std::vector<double> extra);
+    Json write(const MembraneCurve& curve, const BendingModel& bending, std::vector<double> extra);
 
   private:
     RunOutput& output_;
@@ -31,10 +33,10 @@ class StateWriter {
 [[nodiscard]] double number_of(const Parameters& parameters, const std::string& key);
 
 /// Prints what write() returned.
-void print_figures(const nlohmann::ordered_json& figures);
+void print_figures(const Json& figures);
 
 /// [{parameter, value}]
-[[nodiscard]] nlohmann::ordered_json describe_folds(const std::vector<Fold>& folds, const std::string& key);
+[[nodiscard]] Json describe_folds(const std::vector<Fold>& folds, const std::string& key);
 
 /// Notes and prints where a branch in a parameter begins, ends and folds.
 void describe_branch(const StateWriter& writer, const std::string& key, double begin, const Branch& branch,

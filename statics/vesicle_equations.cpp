@@ -9,7 +9,7 @@ namespace endoflow::statics {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::size_t unknowns = static_cast<std::size_t>(vesicle::states) + 1;
 using Number = Dual<unknowns>;
 

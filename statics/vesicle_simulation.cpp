@@ -12,8 +12,6 @@ namespace endoflow::statics {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// What one vesicle says of itself.
 struct VesicleRecord {
     const VesicleState& state;
@@ -25,7 +23,7 @@ struct VesicleRecord {
     }
 };
 
-const std::vector<OwnColumn<VesicleRecord>>& own_columns() {
+const std::vector<OwnColumn<VesicleRecord>>& own_vesicle_columns() {
     using R = VesicleRecord;
     static const std::vector<OwnColumn<R>> columns{
         {"reduced_volume", "V over that of the sphere of the same area",
@@ -49,7 +47,7 @@ Json write_vesicle(StateWriter& writer, const Parameters& parameters, const Vesi
     const MembraneCurve curve = sampled_curve(state, GaussRule(Resolution{}.points), parameters.domain.membrane_height,
                                               vesicle_case(parameters).concentration, curve_points);
     const VesicleRecord record{state, curve, place};
-    Json figures = writer.write(curve, BendingModel(parameters.membrane), own_values(own_columns(), record));
+    Json figures = writer.write(curve, BendingModel(parameters.membrane), own_values(own_vesicle_columns(), record));
     figures["reduced_volume"] = state.membrane.reduced_volume();
     figures["reduced_energy"] = record.reduced_energy();
     figures["pressure_pN_per_nm2"] = state.pressure();
@@ -85,7 +83,7 @@ ExitReason write_branch(const Parameters& parameters, const Request& request, co
 }  // namespace
 
 std::vector<ColumnText> vesicle_columns() {
-    return texts_of(own_columns());
+    return texts_of(own_vesicle_columns());
 }
 
 ExitReason simulate_vesicle(const Parameters& parameters, const Request& request, RunOutput& output) {

@@ -14,7 +14,7 @@ namespace endoflow::statics {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Where families are entered: close enough to the sphere for a spheroid, far enough for Newton's method.
 constexpr double first_reduced_volume = 0.97;

@@ -6,8 +6,6 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
-constexpr Index shape_points_per_element = 8;
-
 FieldIndex field_index(const RunOutput& output, std::optional<double> goes_on_from) {
     const RunDirectory directory{output.directory()};
     return goes_on_from ? FieldIndex(directory, *goes_on_from) : FieldIndex(directory);

@@ -21,12 +21,10 @@ namespace {
 
 using IntegratorStatistics = StiffIntegrator::Statistics;
 
-constexpr double smallest_step = 1e-14;  // µs
-
 /// Where steps are as long as a slowly growing coat lets them, a membrane that relaxes in less than a nanosecond must
 /// be at rest: what the iteration leaves of it is a velocity, 10⁵ times as large per time as over the step.
 StepLimits step_limits(const Parameters& parameters) {
-    StepLimits limits{longest_step(parameters), smallest_step};
+    StepLimits limits{longest_step(parameters)};
     if (parameters.molecules.exchange != Exchange::none) limits.iteration = 1e-5;
     return limits;
 }

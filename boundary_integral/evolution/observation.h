@@ -38,6 +38,9 @@ struct EnergyBalance {
 };
 [[nodiscard]] EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& evaluation);
 
+/// Steps of ξ on each element of the curves that a run writes.
+inline constexpr Index shape_points_per_element = 8;
+
 /// Samples the curve with all its fields at equal steps of ξ, both ends included.
 class CurveSampler {
   public:

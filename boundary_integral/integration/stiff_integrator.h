@@ -23,9 +23,12 @@ struct StiffProblem {
     Eigen::VectorXd error_scales;               ///< absolute error that counts as one, by component
 };
 
+/// A smaller step [µs] is a failure.
+inline constexpr double smallest_step = 1e-14;
+
 struct StepLimits {
-    double largest = 0.0;    ///< µs
-    double smallest = 0.0;   ///< µs; a smaller step is a failure
+    double largest = 0.0;  ///< µs
+    double smallest = smallest_step;
     double iteration = 0.1;  ///< error that the iteration may leave, in units of the step's; 0.1 is CVODE's own
 };
 

@@ -11,7 +11,7 @@ namespace endoflow::boundary_integral {
 
 /// What the energy depends on at one point: the curve's derivatives, which alone make its geometry, then c and c'.
 enum Variable : std::size_t { var_r, var_r1, var_r2, var_z1, var_z2, var_c, var_c1, variable_count };
-constexpr std::size_t curve_variables = 5;
+inline constexpr std::size_t curve_variables = 5;
 using CurveJet = Jet<curve_variables>;
 using CurveDual = Dual<curve_variables>;
 using EnergyJet = Jet<variable_count>;

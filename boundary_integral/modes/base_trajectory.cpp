@@ -13,12 +13,6 @@
 
 namespace endoflow::boundary_integral {
 
-namespace {
-
-constexpr double smallest_step = 1e-14;  // µs
-
-}  // namespace
-
 BaseTrajectory::BaseTrajectory(const MembraneDynamics& dynamics, const Parameters& parameters,
                                const TrajectoryRequest& request)
     : end_(request.end) {
@@ -33,8 +27,7 @@ BaseTrajectory::BaseTrajectory(const MembraneDynamics& dynamics, const Parameter
     problem.jacobian = [&] { return dynamics.jacobian(latest); };
     problem.error_scales = dynamics.error_scales(request.start, request.tolerance, request.tolerance);
     operators = dynamics.operators(request.start);
-    StiffIntegrator integrator(problem, {0.0, first_step(parameters), request.start},
-                               {longest_step(parameters), smallest_step});
+    StiffIntegrator integrator(problem, {0.0, first_step(parameters), request.start}, {longest_step(parameters)});
     const auto radius_at = [&](double time) {
         return neck_radius(find_neck(dynamics.space(), dynamics.unpack(integrator.state_at(time))));
     };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "boundary_integral/flow/dense_solver.h"
+#include "boundary_integral/integration/stiff_integrator.h"
 #include "boundary_integral/support/parallel.h"
 #include "shared/support/error.h"
 
@@ -15,7 +16,6 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
-constexpr double smallest_step = 1e-14;  // µs
 constexpr double smallest_factor = 0.2, largest_factor = 4.0, safety = 0.9;
 
 // Radau IIA: nodes, weights, and the filter of the error estimate (Hairer & Wanner, eqs. IV.5.9, IV.8.17-8.20).

@@ -10,7 +10,7 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Physical values at Greville points to coefficients of a full space.
 Eigen::MatrixXd interpolated(const SplineSpace& splines, const Eigen::MatrixXd& values) {

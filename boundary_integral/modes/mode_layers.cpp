@@ -14,10 +14,6 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
-
 // Bases of both parities at one point of the membrane.
 struct PointBasis {
     std::array<BasisRow, 2> quintic, force;
@@ -53,9 +49,9 @@ struct Sources {
     }
 };
 
-class Builder {
+class ModeLayerBuilder {
   public:
-    Builder(const Sources& sources, std::vector<ModeLayers>& layers)
+    ModeLayerBuilder(const Sources& sources, std::vector<ModeLayers>& layers)
         : sources_(sources), layers_(layers), kernels_(static_cast<int>(layers.size()) - 1) {}
 
     void add(const ModeTarget& target, Index first_row) {
@@ -175,7 +171,7 @@ std::vector<ModeLayers> mode_layers(const MembraneSpace& space, const ParitySpac
     const Sources sources(space, spaces, state);
     // Every target owns its rows.
     parallel_parts(static_cast<Index>(targets.size()), threads, [&](Index begin, Index end) {
-        Builder builder(sources, layers);
+        ModeLayerBuilder builder(sources, layers);
         for (Index i = begin; i < end; ++i) builder.add(targets[at(i)], 3 * i);
     });
     return layers;

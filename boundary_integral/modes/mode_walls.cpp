@@ -13,13 +13,9 @@ namespace {
 
 constexpr int points_per_side = 32;
 
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
-
-class Builder {
+class ModeWallBuilder {
   public:
-    Builder(const WallPanels& walls, const QuadratureRule& rule, std::vector<RowMatrix>& matrices)
+    ModeWallBuilder(const WallPanels& walls, const QuadratureRule& rule, std::vector<RowMatrix>& matrices)
         : walls_(walls), rule_(rule), matrices_(matrices), kernels_(static_cast<int>(matrices.size()) - 1) {}
 
     void add(const ModeWallTarget& target, Index first_row) {
@@ -107,7 +103,7 @@ std::vector<RowMatrix> mode_wall_layers(const WallPanels& walls, const std::vect
     const QuadratureRule rule = gauss_legendre(points_per_side);
     // Every target owns its rows.
     parallel_parts(static_cast<Index>(targets.size()), threads, [&](Index begin, Index end) {
-        Builder builder(walls, rule, matrices);
+        ModeWallBuilder builder(walls, rule, matrices);
         for (Index i = begin; i < end; ++i) builder.add(targets[at(i)], 3 * i);
     });
     return matrices;

@@ -5,15 +5,10 @@
 #include <functional>
 #include <numbers>
 
+#include "boundary_integral/evolution/observation.h"
 #include "boundary_integral/flow/dense_solver.h"
 
 namespace endoflow::boundary_integral {
-
-namespace {
-
-constexpr Index points_per_element = 8;  // as of the run's shapes
-
-}  // namespace
 
 PerturbationNorms perturbation_norms(const ModeSpace& space, const BasePoints& points) {
     const Eigen::MatrixXd mass = scalar_mass(space, points);
@@ -46,7 +41,7 @@ Eigen::MatrixXd concentration_values(const ModeSpace& space, const std::vector<d
 }
 
 std::vector<double> meridian_points(const MembraneSpace& space) {
-    const Index count = points_per_element * space.elements();
+    const Index count = shape_points_per_element * space.elements();
     std::vector<double> points;
     for (Index i = 0; i <= count; ++i) points.push_back(static_cast<double>(i) / static_cast<double>(count));
     return points;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "boundary_integral/evolution/observation.h"
 #include "shared/case/case_file.h"
 #include "shared/output/hdf5_file.h"
 #include "shared/output/run_record.h"
@@ -13,8 +14,6 @@
 namespace endoflow::boundary_integral {
 
 namespace {
-
-constexpr std::size_t points_per_element = 8;
 
 /// Appends SECTION.KEY=VALUE of a section and of the sections within it.
 void add_overrides(const std::string& section, const RunRecord& keys, std::vector<std::string>& overrides) {
@@ -67,7 +66,7 @@ RecordedRun::RecordedRun(const std::filesystem::path& directory) {
     }
     parameters_ = parse_case("", source, as_overrides(record));
     require_modelled(parameters_, source);
-    parameters_.boundary_integral.elements = static_cast<int>((points - 1) / points_per_element);
+    parameters_.boundary_integral.elements = static_cast<int>((points - 1) / at(shape_points_per_element));
 }
 
 RecordedShape RecordedRun::shape(std::size_t index) const {

@@ -13,10 +13,6 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
-
 /// What all targets share.
 struct Sources {
     const MembraneSpace& space;
@@ -47,9 +43,9 @@ struct Sources {
     }
 };
 
-class Builder {
+class MembraneLayerBuilder {
   public:
-    Builder(const Sources& sources, MembraneLayers& layers)
+    MembraneLayerBuilder(const Sources& sources, MembraneLayers& layers)
         : sources_(sources), layers_(layers), measure_(sources.measure) {
         const auto& curve = sources.samples.curve;
         table_.resize(curve.size());
@@ -218,7 +214,7 @@ MembraneLayers membrane_layers(const MembraneSpace& space, const MembraneState& 
     const Sources sources(space, state, samples, quadrature);
     // Every target owns its rows.
     parallel_parts(static_cast<Index>(targets.size()), quadrature.threads, [&](Index begin, Index end) {
-        Builder builder(sources, layers);
+        MembraneLayerBuilder builder(sources, layers);
         for (Index i = begin; i < end; ++i) builder.add(targets[at(i)]);
     });
     return layers;

@@ -5,12 +5,6 @@
 
 namespace endoflow::boundary_integral {
 
-namespace {
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
-}  // namespace
-
 SplineSpace::SplineSpace(int degree, std::vector<double> breakpoints, Parity parity, RightEnd right_end)
     : degree_(degree), parity_(parity), right_end_(right_end), breakpoints_(std::move(breakpoints)) {
     const std::size_t last = breakpoints_.size() - 1;

@@ -3,6 +3,7 @@
 // B-splines on [0, 1] that continue smoothly through the axis at 0: only combinations with the given parity are kept.
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,6 +13,11 @@
 namespace endoflow::boundary_integral {
 
 using Index = Eigen::Index;
+
+/// An index of Eigen's as one of the standard library's.
+[[nodiscard]] constexpr std::size_t at(Index i) {
+    return static_cast<std::size_t>(i);
+}
 
 enum class RightEnd { free, mirrored };  // at ξ = 1: multiple knot, or the same parity as at 0
 

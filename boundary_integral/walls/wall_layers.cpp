@@ -11,14 +11,10 @@ namespace {
 constexpr int wall_points = 40;
 constexpr int membrane_points = 32;
 
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
-
-class Builder {
+class WallLayerBuilder {
   public:
-    Builder(const WallPanels& walls, const QuadratureRule& wall_rule, const QuadratureRule& membrane_rule,
-            RowMatrix& matrix)
+    WallLayerBuilder(const WallPanels& walls, const QuadratureRule& wall_rule, const QuadratureRule& membrane_rule,
+                     RowMatrix& matrix)
         : walls_(walls), wall_rule_(wall_rule), membrane_rule_(membrane_rule), matrix_(matrix) {}
 
     void add(const WallTarget& target) {
@@ -102,7 +98,7 @@ RowMatrix wall_layers(const WallPanels& walls, const std::vector<WallTarget>& ta
     const QuadratureRule wall_rule = gauss_legendre(wall_points), membrane_rule = gauss_legendre(membrane_points);
     // Every target owns its rows.
     parallel_parts(static_cast<Index>(targets.size()), threads, [&](Index begin, Index end) {
-        Builder builder(walls, wall_rule, membrane_rule, matrix);
+        WallLayerBuilder builder(walls, wall_rule, membrane_rule, matrix);
         for (Index i = begin; i < end; ++i) builder.add(targets[at(i)]);
     });
     return matrix;

@@ -1,6 +1,7 @@
 // The membrane as a system of ordinary differential equations: conservation, Jacobian, energy balance.
 
 #include <catch2/catch.hpp>
+#include <numbers>
 
 #include "boundary_integral/evolution/observation.h"
 #include "boundary_integral/flow/free_space_flow.h"
@@ -11,6 +12,7 @@ namespace {
 using namespace endoflow;
 using namespace endoflow::boundary_integral;
 using endoflow::boundary_integral::testing::bulge;
+using std::numbers::pi;
 
 Parameters small_case() {
     Parameters parameters;
@@ -41,10 +43,10 @@ TEST_CASE("the initial membrane is flat, resolves the coat and holds its molecul
     const Eigen::VectorXd y = dynamics.initial_vector();
     const MembraneState state = dynamics.unpack(y);
     const ShapeMeasures shape = measure_shape(dynamics.space(), state, DomainParameters{});
-    CHECK(shape.membrane_area == Approx(std::acos(-1.0) * 80 * 80).epsilon(1e-12));
+    CHECK(shape.membrane_area == Approx(pi * 80 * 80).epsilon(1e-12));
     // int c dA of the tanh profile: pi r_c^2 (1 + pi^2 (sqrt2 eps)^2 / (12 r_c^2)), up to exp(-2 r_c / (sqrt2 eps)) =
     // 4e-19.
-    const double width = std::sqrt(2.0) * 1.2, patch = 36, pi = std::acos(-1.0);
+    const double width = std::sqrt(2.0) * 1.2, patch = 36;
     // 1e-6: what 60 elements resolve of a 1.7 nm wide edge
     CHECK(molecule_mass(dynamics.space(), sample(dynamics.space(), state)) ==
           Approx(pi * patch * patch * (1 + pi * pi * width * width / (12 * patch * patch))).epsilon(1e-6));
@@ -120,7 +122,7 @@ TEST_CASE("without a fluid the energy falls by what normal motion gains", "[dyna
     const Evaluation e = dynamics.evaluate(moved(dynamics));
     CHECK(e.flow.power > 0);
     // Along the material's motion alone: exact by construction, round-off of a sum of terms ~ 1e3 larger.
-    const double rate = 2.0 * std::acos(-1.0) * e.energy.gradient.dot(e.flow.velocity);
+    const double rate = 2.0 * pi * e.energy.gradient.dot(e.flow.velocity);
     CHECK(rate == Approx(-e.flow.power).epsilon(1e-9));
     // Every point moves along its normal, up to what the splines can represent.
     double normal = 0, tangential = 0;
@@ -144,7 +146,7 @@ TEST_CASE("a vesicle in free space keeps area and volume and has no net force", 
     const Eigen::VectorXd y = dynamics.initial_vector();
     const ShapeMeasures shape = measure_shape(dynamics.space(), dynamics.unpack(y), parameters.domain);
     const double a = parameters.domain.spheroid_equatorial_axis, b = parameters.domain.spheroid_polar_axis;
-    const double pi = std::acos(-1.0), eccentricity = std::sqrt(1 - a * a / (b * b));
+    const double eccentricity = std::sqrt(1 - a * a / (b * b));
     // 24 quintic elements
     CHECK(shape.extracellular_volume == Approx(4 * pi / 3 * a * a * b).epsilon(1e-7));
     CHECK(shape.membrane_area == Approx(2 * pi * a * (a + b * std::asin(eccentricity) / eccentricity)).epsilon(1e-7));
@@ -167,8 +169,8 @@ TEST_CASE("the pole force adds up to F and rides on the material", "[dynamics][l
     const MembraneSpace space(24, 8);
     const MembraneState state = bulge(space, 25);
     const Eigen::VectorXd load = external_load(space, sample(space, state), pole_alone);
-    const double total = load.tail(space.axial_count()).sum();         // the power of a unit motion upwards, over 2 pi
-    CHECK(2.0 * std::acos(-1.0) * total == Approx(20).epsilon(1e-6));  // the quadrature of the force's density
+    const double total = load.tail(space.axial_count()).sum();  // the power of a unit motion upwards, over 2 pi
+    CHECK(2.0 * pi * total == Approx(20).epsilon(1e-6));        // the quadrature of the force's density
     const Eigen::MatrixXd exact = pole_force_variation(space, sample(space, state), pole_alone);
     Eigen::VectorXd direction(space.curve_count());
     for (Index i = 0; i < direction.size(); ++i) direction[i] = std::sin(3.0 * static_cast<double>(i) + 1.0);

@@ -13,7 +13,7 @@ using namespace endoflow;
 using namespace endoflow::boundary_integral;
 using namespace endoflow::boundary_integral::testing;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Hadamard and Rybczynski: sphere of radius 1, force density z n (buoyancy), viscosities `inner`, `outer`.
 struct Drop {

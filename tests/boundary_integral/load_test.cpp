@@ -12,7 +12,7 @@ using namespace endoflow;
 using namespace endoflow::boundary_integral;
 using endoflow::boundary_integral::testing::bulge;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct LoadCase {
     const char* name;

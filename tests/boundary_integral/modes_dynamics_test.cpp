@@ -20,12 +20,12 @@ using namespace endoflow::boundary_integral;
 using namespace endoflow::boundary_integral::testing;
 
 // Displacement along the normal, and concentration, in the spaces of mode 0.
-struct Perturbation {
+struct AxisymmetricPerturbation {
     Profile w, c;
 };
 
-Eigen::VectorXd perturbed(const MembraneDynamics& dynamics, const MembraneState& state, const Perturbation& by,
-                          double amount) {
+Eigen::VectorXd perturbed(const MembraneDynamics& dynamics, const MembraneState& state,
+                          const AxisymmetricPerturbation& by, double amount) {
     const MembraneSpace& space = dynamics.space();
     const auto point = [&](double x) { return curve_point(space.radial().basis(x), space.axial().basis(x), state); };
     MembraneState moved = state_of(
@@ -88,8 +88,8 @@ TEST_CASE("mode 0 of the linearisation is the derivative of the axisymmetric eng
     const Surroundings surroundings(parameters, space, 0);
     const LinearisedMembrane membrane(parameters, surroundings, engine_state(dynamics, e));
 
-    const Perturbation by = {[](double x) { return std::pow(1 - x * x, 3) * std::cos(4 * x * x); },
-                             [](double x) { return 0.3 * std::exp(-6 * x * x); }};
+    const AxisymmetricPerturbation by = {[](double x) { return std::pow(1 - x * x, 3) * std::cos(4 * x * x); },
+                                         [](double x) { return 0.3 * std::exp(-6 * x * x); }};
     const double step = 1e-4;
     const Evaluation plus = dynamics.evaluate(perturbed(dynamics, state, by, step));
     const Evaluation minus = dynamics.evaluate(perturbed(dynamics, state, by, -step));
@@ -145,8 +145,8 @@ TEST_CASE("the propagator of mode 0 is the difference of two nearby runs", "[mod
     const MembraneState state = dynamics.unpack(start);
     // Errors of the runs (1e-8 a step) and the third-order part (1e-4 of the bud's size, squared) stay below 1e-5.
     constexpr double end = 0.05, tolerance = 1e-8, amount = 0.01;
-    const Perturbation by = {[](double x) { return std::pow(1 - x * x, 3) * std::cos(4 * x * x); },
-                             [](double x) { return 0.03 * std::exp(-6 * x * x); }};
+    const AxisymmetricPerturbation by = {[](double x) { return std::pow(1 - x * x, 3) * std::cos(4 * x * x); },
+                                         [](double x) { return 0.03 * std::exp(-6 * x * x); }};
     const auto run = [&](const Eigen::VectorXd& from) {
         return BaseTrajectory(dynamics, parameters, {from, end, tolerance});
     };
@@ -213,7 +213,7 @@ RigidErrors rigid_errors(Motion motion, double inner, double outer, Index elemen
     parameters.boundary_integral.mesh_relaxation_time = 1e3;  // the mesh follows the material
     const MembraneDynamics dynamics(parameters);
     const MembraneSpace& space = dynamics.space();
-    constexpr double pi = std::numbers::pi;
+    using std::numbers::pi;
     const MembraneState state = state_of(
         space, [](double x) { return 18 * std::sin(pi * x) * (1 + 0.05 * std::cos(2 * pi * x)); },
         [](double x) { return 24 * std::cos(pi * x) + std::cos(2 * pi * x); },

@@ -33,7 +33,7 @@ inline BaseState at_rest(const MembraneSpace& space, MembraneState membrane) {
 
 /// A bare sphere with the tension sigma beta/R^2, in equilibrium with its pressure: dE = lambda dA + p dV = 0.
 inline BaseState sphere_at_rest(const MembraneSpace& space, const BendingModel& model, double sigma) {
-    constexpr double pi = std::numbers::pi;
+    using std::numbers::pi;
     BaseState base =
         at_rest(space, state_of(
                            space, [](double x) { return sphere_radius * std::sin(pi * x); },

@@ -17,7 +17,7 @@ using namespace endoflow;
 using namespace endoflow::boundary_integral;
 using endoflow::boundary_integral::testing::bulge;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Parameters case_of(int elements) {
     Parameters parameters;

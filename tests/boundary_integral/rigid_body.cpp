@@ -10,7 +10,7 @@ namespace endoflow::boundary_integral::testing {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Cap {
     MembraneState state;

@@ -21,7 +21,7 @@ using namespace endoflow;
 using namespace endoflow::boundary_integral;
 using namespace endoflow::boundary_integral::testing;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Meridional {
     double r, z;

@@ -24,7 +24,7 @@ using namespace endoflow;
 using namespace endoflow::boundary_integral;
 using namespace endoflow::boundary_integral::testing;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double radius = 20;  // nm
 
 struct Vesicle {

@@ -17,8 +17,8 @@ constexpr int refinements = 3;
 
 /// A system without symmetry, its rows of sizes as different as those of fields that only live on the membrane, on a
 /// mesh with cells of three sizes: solved whole and condensed.
-struct Problem {
-    Problem(MPI_Comm communicator_, bool second_component)
+struct WholeAndCondensed {
+    WholeAndCondensed(MPI_Comm communicator_, bool second_component)
         : communicator(communicator_),
           mesh(coarse_mesh(small_case(), communicator)),
           space(*mesh, {3, 2}),
@@ -139,7 +139,7 @@ struct Problem {
 };
 
 /// The name of the error, if there is one, when all cells have this matrix times their own.
-std::string failure(Problem& problem, double factor) {
+std::string failure(WholeAndCondensed& problem, double factor) {
     try {
         problem.condensed.start();
         problem.on_own_cells([&](const auto& cell, const auto& /*indices*/) {
@@ -186,7 +186,7 @@ constexpr double single_round_off = 1e-6, round_off = 1e-11;
 TEST_CASE("a condensed system has the same solution", "[condensation]") {
     for (const bool second_component : {true, false}) {
         CAPTURE(second_component);
-        Problem problem(MPI_COMM_SELF, second_component);
+        WholeAndCondensed problem(MPI_COMM_SELF, second_component);
         REQUIRE(problem.space.hanging_nodes.n_constraints() > 0);
         CHECK(problem.difference() < single_round_off);
         CHECK(problem.refined_difference() < round_off);
@@ -198,7 +198,7 @@ TEST_CASE("a condensed system has the same solution", "[condensation]") {
 }
 
 TEST_CASE("on a new mesh single precision is tried again", "[condensation]") {
-    Problem problem(MPI_COMM_SELF, true);
+    WholeAndCondensed problem(MPI_COMM_SELF, true);
     problem.condensed.use(Precision::full);
     problem.condensed.reinit(problem.space);
     CHECK(problem.condensed.precision() == Precision::single);
@@ -233,14 +233,14 @@ TEST_CASE("a process may share all of its unknowns with others", "[condensation]
 }
 
 TEST_CASE("a condensed system has the same solution on several processes", "[condensation][mpi]") {
-    Problem problem(MPI_COMM_WORLD, true);
+    WholeAndCondensed problem(MPI_COMM_WORLD, true);
     CHECK(problem.difference() < single_round_off);
     CHECK(problem.refined_difference() < round_off);
     CHECK(problem.difference_with_old_factors() < single_round_off);
 }
 
 TEST_CASE("a condensed system survives singular and not finite matrices", "[condensation]") {
-    Problem problem(MPI_COMM_SELF, true);
+    WholeAndCondensed problem(MPI_COMM_SELF, true);
     CHECK(failure(problem, 0) == "linear-solver");
     CHECK(failure(problem, std::nan("")) == "not-a-number");
     CHECK(failure(problem, INFINITY) == "not-a-number");

@@ -22,8 +22,8 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// A scalar space on a small mesh with its linear system.
-struct Problem {
-    Problem() : mesh(coarse_mesh(small_case(), MPI_COMM_SELF)), space(*mesh, {1}), system(MPI_COMM_SELF, "test") {
+struct ScalarProblem {
+    ScalarProblem() : mesh(coarse_mesh(small_case(), MPI_COMM_SELF)), space(*mesh, {1}), system(MPI_COMM_SELF, "test") {
         space.distribute();
         space.constraints.close();
         Couplings full(1, 1);
@@ -70,7 +70,7 @@ Parameters short_run() {
 }  // namespace
 
 TEST_CASE("a linear system survives not-a-numbers and singular matrices", "[faults]") {
-    Problem problem;
+    ScalarProblem problem;
     CHECK(problem.solve(2, 3) == Approx(1.5).epsilon(1e-14));
     CHECK(problem.failure(2, not_a_number) == "not-a-number");
     CHECK(problem.failure(0, 3) == "linear-solver");

@@ -16,7 +16,7 @@ using namespace endoflow::phasefield::production;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The loads' power on the flat membrane of the small case when the velocity is u_r(r), u_z(r).
 template <class Radial, class Axial>

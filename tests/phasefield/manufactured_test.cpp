@@ -16,11 +16,11 @@ using namespace endoflow::phasefield::production;
 
 namespace {
 
-constexpr double width = 40;  // of the domain [nm]
+constexpr double domain_width = 40;  // nm
 
 /// a + b cos(πr/L) cos(πz/L + phase), even in r, or the same times r.
 std::array<double, 3> wave(double a, double b, double phase, bool odd, double r, double z) {
-    constexpr double k = 3.14159265358979323846 / width;
+    constexpr double k = 3.14159265358979323846 / domain_width;
     const double cr = std::cos(k * r), sr = -k * std::sin(k * r), cz = std::cos(k * z + phase),
                  sz = -k * std::sin(k * z + phase);
     const double value = a + b * cr * cz, dr = b * sr * cz, dz = b * cr * sz;
@@ -36,7 +36,7 @@ PointValues solution(double r, double z) {
     x[Field::pressure] = wave(0.01, 0.03, 0.1, false, r, z);
     x[pressure_layer] = wave(0, 0.02, 0.5, false, r, z);
     x[Field::tension] = wave(0.05, 0.1, 0.9, false, r, z);
-    x[distance] = wave(0.5 * width - z, 3, 0.4, false, r, z);
+    x[distance] = wave(0.5 * domain_width - z, 3, 0.4, false, r, z);
     x[distance][2] -= 1;
     x[normal_force] = wave(0.01, 0.02, 1.1, false, r, z);
     x[Field::moment] = wave(30, 15, 0.7, false, r, z);
@@ -48,10 +48,10 @@ PointValues solution(double r, double z) {
 
 Parameters on_squares(unsigned int cells) {
     Parameters p;
-    p.domain.radius = p.domain.height = width;
-    p.domain.membrane_height = 0.5 * width;
+    p.domain.radius = p.domain.height = domain_width;
+    p.domain.membrane_height = 0.5 * domain_width;
     p.phase_field.epsilon = 4.8;
-    p.phase_field.cell_size = width / cells;
+    p.phase_field.cell_size = domain_width / cells;
     p.phase_field.far_refinements = 0;
     return p;
 }

@@ -14,15 +14,15 @@ using namespace endoflow::phasefield::production;
 namespace {
 
 /// Height, volume, area and energy of the membrane after some steps the scheme chooses itself, and the time reached.
-struct Outcome {
+struct Reached {
     double time = 0;
     Observables seen;
 };
 
-Outcome after_steps(const Parameters& p, int steps) {
+Reached after_steps(const Parameters& p, int steps) {
     ProductionScheme scheme(p, MPI_COMM_SELF);
     scheme.start();
-    Outcome out;
+    Reached out;
     Contour contour;
     for (int i = 0; i < steps; ++i) {
         const double tau = scheme.step(out.time, p.time.end);
@@ -41,7 +41,7 @@ Outcome after_steps(const Parameters& p, int steps) {
 /// shows at 10⁻⁴ and more.
 constexpr double solver = 1e-6, tolerance = 2e-5;
 
-void check_equal(const Outcome& a, const Outcome& b, double time, double length) {
+void check_equal(const Reached& a, const Reached& b, double time, double length) {
     CHECK(b.time == Approx(time * a.time).epsilon(1e-4));
     CHECK(b.seen.bud_height == Approx(length * a.seen.bud_height).epsilon(solver));
     CHECK(b.seen.extracellular_volume ==

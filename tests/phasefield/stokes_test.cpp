@@ -49,11 +49,11 @@ void constrain(Space& space) {
             const bool outer = r > 1 - 1e-9 || z < 1e-9 || z > 1 - 1e-9;
             if (component == u_r && (outer || r < 1e-9)) fix(indices[i], exact_u_r(r, z));
             if (component == u_z && outer) fix(indices[i], exact_u_z(r, z));
-            if (component == pressure && !pressure_fixed) {
+            if (component == paper::pressure && !pressure_fixed) {
                 fix(indices[i], r * r * std::cos(k * z));
                 pressure_fixed = true;
             }
-            if (component == tension || component >= phi) fix(indices[i], 0);
+            if (component == paper::tension || component >= phi) fix(indices[i], 0);
         }
     }
     space.constraints.close();

@@ -10,7 +10,7 @@ using std::numbers::pi;
 
 namespace {
 
-const BendingModel model{MembraneParameters{}};
+const BendingModel default_model{MembraneParameters{}};
 
 MembraneCurve curve_of(int points, double t_end, double (*r)(double), double (*z)(double), double (*kappa)(double)) {
     MembraneCurve curve;
@@ -52,14 +52,14 @@ TEST_CASE("the height of a bud with a dimple on the axis does not depend on roun
     curve.z = z;
     curve.c = curve.kappa = std::vector<double>(z.size(), 0.0);
     for (std::size_t i = 0; i < z.size(); ++i) curve.r.push_back(2.5 * static_cast<double>(i));
-    const double height = measure(curve, model).bud_height;
+    const double height = measure(curve, default_model).bud_height;
     CHECK(height > z[1] + 2e-5);
     CHECK(height < z[1] + 1e-4);
     for (int shift = 1; shift <= 40; ++shift) {
         MembraneCurve raised = curve;
         for (double& value : raised.z) value += 0.1 * shift;
         // Heights of 6 nm have a round-off of 1e-15 nm, and the height is a smooth function of them.
-        CHECK(measure(raised, model).bud_height == Approx(height).epsilon(1e-12));
+        CHECK(measure(raised, default_model).bud_height == Approx(height).epsilon(1e-12));
     }
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("area, energy and volume of a spherical cap converge with order 4") {
     const double area = 2 * pi * radius * height;
     const double volume = pi * height * height * (3 * radius - height) / 3;
     const double energy = 0.5 * 50 * (2 / radius) * (2 / radius) * area;  // β(0) = b_m/2, C(0) = 0
-    const auto coarse = measure(sphere_cap(41), model), fine = measure(sphere_cap(81), model);
+    const auto coarse = measure(sphere_cap(41), default_model), fine = measure(sphere_cap(81), default_model);
     // The far end of the spline is natural, a local O(h²) error in curvature: order ≥ 3 overall in area and volume.
     const double order = std::log2(std::abs(coarse.membrane_area - area) / std::abs(fine.membrane_area - area));
     CHECK(order > 2.8);
@@ -83,7 +83,7 @@ TEST_CASE("the neck and the lateral diameter of a bud are found between samples"
     const double cosine = -slope / (2 * pi * amplitude);  // r' = 0 at 2πt = ±acos(cosine)
     const double t_wide = std::acos(cosine) / (2 * pi), t_neck = 1 - t_wide;
     const auto curve = curve_of(201, 1.0, bud_r, bud_z, [](double) { return 0.0; });
-    const auto neck = measure(curve, model).neck;
+    const auto neck = measure(curve, default_model).neck;
     REQUIRE(neck.has_value());
     // Cubic spline with 200 intervals: (1/200)⁴ times fourth derivatives of order (2π)⁴·25 / 384 gives 7e-8 nm.
     CHECK(neck->radius == Approx(bud_r(t_neck)).margin(1e-6));
@@ -93,7 +93,7 @@ TEST_CASE("the neck and the lateral diameter of a bud are found between samples"
 TEST_CASE("a membrane that widens all the way has no neck, and a flat one no height, energy or volume") {
     const auto flat = curve_of(
         50, 80.0, [](double t) { return t; }, [](double) { return 80.0; }, [](double) { return 0.0; });
-    const auto result = measure(flat, model);
+    const auto result = measure(flat, default_model);
     CHECK_FALSE(result.neck.has_value());
     CHECK(result.bud_height == 0);
     CHECK(result.membrane_area == Approx(pi * 6400).epsilon(1e-13));
@@ -103,12 +103,12 @@ TEST_CASE("a membrane that widens all the way has no neck, and a flat one no hei
 
 TEST_CASE("a curve that is no membrane is refused") {
     MembraneCurve curve;
-    CHECK_THROWS_AS(measure(curve, model), std::invalid_argument);
+    CHECK_THROWS_AS(measure(curve, default_model), std::invalid_argument);
     auto shifted = sphere_cap(20);
     shifted.r.front() = 3;
-    CHECK_THROWS_AS(measure(shifted, model), std::invalid_argument);
+    CHECK_THROWS_AS(measure(shifted, default_model), std::invalid_argument);
     auto repeated = sphere_cap(20);
     repeated.r[5] = repeated.r[4];
     repeated.z[5] = repeated.z[4];
-    CHECK_THROWS_AS(measure(repeated, model), std::invalid_argument);
+    CHECK_THROWS_AS(measure(repeated, default_model), std::invalid_argument);
 }

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "default_rule.h"
 #include "shared/geometry/axisymmetric_spline.h"
 #include "statics/sampled_curve.h"
 #include "statics/stationary_state.h"
@@ -58,7 +59,7 @@ TEST_CASE("No vertical force acts on any horizontal cut, and the tension is the 
     parameters.molecules.patch_radius = 24;
     parameters.molecules.transport = GENERATE(Transport::advection, Transport::cahn_hilliard);
     const auto state = find_stationary_state(parameters);
-    const MembraneCurve curve = sampled_curve(parameters, state.point.solution, GaussRule(Resolution{}.points), 4001);
+    const MembraneCurve curve = sampled_curve(parameters, state.point.solution, default_rule, 4001);
     const Forces forces = forces_of(curve, membrane_energy(parameters));
     const double scale = *std::max_element(forces.magnitude.begin(), forces.magnitude.end());
     const double largest_tension = *std::max_element(curve.lambda.begin(), curve.lambda.end());

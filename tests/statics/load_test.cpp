@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
+#include "default_rule.h"
 #include "shared/parameters/parameter_table.h"
 #include "statics/sampled_curve.h"
 #include "statics/shape_integrals.h"
@@ -13,8 +14,7 @@ using namespace endoflow::statics;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-const GaussRule default_rule(Resolution{}.points);
+using std::numbers::pi;
 
 Parameters bare_membrane(double stiffness) {
     Parameters parameters;

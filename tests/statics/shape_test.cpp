@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "default_rule.h"
 #include "shared/geometry/observables.h"
 #include "statics/sampled_curve.h"
 #include "statics/stationary_state.h"
@@ -13,8 +14,6 @@ using namespace endoflow;
 using namespace endoflow::statics;
 
 namespace {
-
-const GaussRule default_rule(Resolution{}.points);
 
 Parameters patch(double radius, Transport transport) {
     Parameters parameters;

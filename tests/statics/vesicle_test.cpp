@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "default_rule.h"
 #include "shared/support/error.h"
 #include "statics/vesicle_state.h"
 
@@ -12,7 +13,7 @@ using namespace endoflow::statics;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double radius = 20, stiffness = 50;  // of the sphere with the same area, nm; pN nm
 
 ClosedMembrane membrane(double reduced_volume, double reduced_curvature = 0) {
@@ -99,12 +100,11 @@ TEST_CASE("Stationary vesicles satisfy the identities of the variational problem
         // E(C/s, s² A, s³ V) does not depend on s, dE/dA = -λ, dE/dV = p and dE/dC = -∫ β (κ - C) dA, so
         // 2 λ A - 3 p V - C ∫ β (κ - C) dA = 0.
         double moments = 0;
-        const GaussRule rule(Resolution{}.points);
         for (std::size_t i = 0; i < state.solution.elements(); ++i)
-            for (int j = 0; j < rule.points; ++j) {
-                const double x = state.solution.mesh[i] + state.solution.width(i) * rule.nodes(j);
-                moments += state.membrane.area * state.solution.width(i) * rule.weights(j) *
-                           evaluate(state.solution, rule, x)(vesicle::moment);
+            for (int j = 0; j < default_rule.points; ++j) {
+                const double x = state.solution.mesh[i] + state.solution.width(i) * default_rule.nodes(j);
+                moments += state.membrane.area * state.solution.width(i) * default_rule.weights(j) *
+                           evaluate(state.solution, default_rule, x)(vesicle::moment);
             }
         const double stretching = 2 * state.tension() * state.membrane.area;
         const double inflation = 3 * state.pressure() * state.membrane.volume;
