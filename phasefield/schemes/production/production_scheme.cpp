@@ -29,7 +29,6 @@ constexpr double almost_all = constant("almost_all");
 constexpr double tolerated_excess = constant("tolerated_excess");
 constexpr double newton_part = constant("newton_part");
 constexpr double smallest_step = constant("smallest_step");
-constexpr double negligible_error = 1e-9;  // over the one allowed: the step may grow as far as it ever may
 constexpr double largest_motion = constant("largest_motion");
 
 /// Largest relative error of a step.
@@ -225,7 +224,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
         if (bulk_)
             wrong_molecules =
                 fraction * std::abs(trial_integrals_.molecules / numbers_.molecules - 1) / step_tolerance(parameters_);
-        const double larger = std::max({wrong_position, wrong_molecules, negligible_error});
+        const double larger = std::max(wrong_position, wrong_molecules);  // 0 lets the step grow as far as it may
         trial_factor_ = std::min(trial_factor_, safety * std::pow(larger, -1 / (1 + static_cast<double>(order()))));
     }
     if (trial_motion_ > 0) trial_factor_ = std::min(trial_factor_, safety * farthest / trial_motion_);
