@@ -10,33 +10,33 @@ namespace endoflow::statics {
 namespace {
 
 using std::numbers::pi;
-constexpr std::size_t unknowns = static_cast<std::size_t>(vesicle::states) + 1;
-using Number = Dual<unknowns>;
+constexpr std::size_t vesicle_unknowns = static_cast<std::size_t>(vesicle::states) + 1;
+using VesicleNumber = Dual<vesicle_unknowns>;
 
-struct Variables {
-    std::array<Number, unknowns> y;
+struct VesicleVariables {
+    std::array<VesicleNumber, vesicle_unknowns> y;
 
-    Variables(const Eigen::VectorXd& states, const Eigen::VectorXd& globals)
-        : y(dual_unknowns<unknowns>(states, globals)) {}
-    const Number& operator[](Eigen::Index i) const { return y[static_cast<std::size_t>(i)]; }
-    [[nodiscard]] const Number& pressure() const { return y[static_cast<std::size_t>(vesicle::states)]; }
+    VesicleVariables(const Eigen::VectorXd& states, const Eigen::VectorXd& globals)
+        : y(dual_unknowns<vesicle_unknowns>(states, globals)) {}
+    const VesicleNumber& operator[](Eigen::Index i) const { return y[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] const VesicleNumber& pressure() const { return y[static_cast<std::size_t>(vesicle::states)]; }
 };
 
 /// κ = C(x) + m/β
-Number total_curvature(const ClosedMembrane& membrane, double x, const Number& moment) {
-    return Number(membrane.spontaneous_curvature + membrane.polarity * (1 - 2 * x)) +
-           moment / Number(membrane.stiffness);
+VesicleNumber total_curvature(const ClosedMembrane& membrane, double x, const VesicleNumber& moment) {
+    return VesicleNumber(membrane.spontaneous_curvature + membrane.polarity * (1 - 2 * x)) +
+           moment / VesicleNumber(membrane.stiffness);
 }
 
 SlopeValues slope(const ClosedMembrane& membrane, double x, const Eigen::VectorXd& states,
                   const Eigen::VectorXd& globals) {
-    const Variables v(states, globals);
-    const Number &y = v[vesicle::r_squared], &w = v[vesicle::cosine], &hoop = v[vesicle::hoop], &m = v[vesicle::moment],
-                 &thrust = v[vesicle::thrust], &p = v.pressure();
-    const Number total = total_curvature(membrane, x, m);
-    const Number anisotropy = (total - 2.0 * hoop) / y;  // (κ1 − κ2)/r²
-    std::array<Number, unknowns> by_a;
-    const auto set = [&](Eigen::Index i, const Number& value) { by_a[static_cast<std::size_t>(i)] = value; };
+    const VesicleVariables v(states, globals);
+    const VesicleNumber &y = v[vesicle::r_squared], &w = v[vesicle::cosine], &hoop = v[vesicle::hoop],
+                        &m = v[vesicle::moment], &thrust = v[vesicle::thrust], &p = v.pressure();
+    const VesicleNumber total = total_curvature(membrane, x, m);
+    const VesicleNumber anisotropy = (total - 2.0 * hoop) / y;  // (κ1 − κ2)/r²
+    std::array<VesicleNumber, vesicle_unknowns> by_a;
+    const auto set = [&](Eigen::Index i, const VesicleNumber& value) { by_a[static_cast<std::size_t>(i)] = value; };
     set(vesicle::r_squared, 2.0 * w);
     set(vesicle::cosine, -hoop * (total - hoop));
     set(vesicle::hoop, w * anisotropy);
@@ -44,16 +44,16 @@ SlopeValues slope(const ClosedMembrane& membrane, double x, const Eigen::VectorX
     set(vesicle::thrust, m * anisotropy - 0.5 * p * hoop);  // radial force balance
     set(vesicle::height, -hoop);
     set(vesicle::volume, y * hoop);
-    set(vesicle::energy, 0.5 * m * m / Number(membrane.stiffness));
-    const Number length_of_a = membrane.area / (2 * pi);
-    for (Number& value : by_a) value = length_of_a * value;
-    return slope_values<unknowns>(by_a, vesicle::states, 1);
+    set(vesicle::energy, 0.5 * m * m / VesicleNumber(membrane.stiffness));
+    const VesicleNumber length_of_a = membrane.area / (2 * pi);
+    for (VesicleNumber& value : by_a) value = length_of_a * value;
+    return slope_values<vesicle_unknowns>(by_a, vesicle::states, 1);
 }
 
 ConditionValues conditions(const ClosedMembrane& membrane, const Eigen::VectorXd& first, const Eigen::VectorXd& last,
                            const Eigen::VectorXd& globals) {
-    ConditionList<unknowns> list(vesicle::states, 1);
-    const Variables north(first, globals), south(last, globals);
+    ConditionList<vesicle_unknowns> list(vesicle::states, 1);
+    const VesicleVariables north(first, globals), south(last, globals);
     list.at_first(north[vesicle::r_squared]);
     list.at_first(north[vesicle::cosine] - 1.0);
     list.at_first(total_curvature(membrane, 0, north[vesicle::moment]) - 2.0 * north[vesicle::hoop]);  // κ1 = κ2

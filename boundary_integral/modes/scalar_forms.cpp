@@ -8,8 +8,6 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
-constexpr std::size_t functions = BasisRow::capacity;
-
 // sum over Gauss points of  psi_j^(rows) weight(i) psi_k^(columns)
 template <class Weight>
 Eigen::MatrixXd scalar_form(const ModeSpace& space, std::size_t row_derivative, std::size_t column_derivative,
@@ -20,8 +18,8 @@ Eigen::MatrixXd scalar_form(const ModeSpace& space, std::size_t row_derivative, 
     for (std::size_t i = 0; i < membrane.xi.size(); ++i) {
         const BasisRow row = splines.basis(membrane.xi[i], static_cast<Index>(i) / membrane.points_per_element());
         const double w = membrane.weight[i] * weight(i);
-        for (std::size_t j = 0; j < functions; ++j) {
-            for (std::size_t k = 0; k < functions; ++k) {
+        for (std::size_t j = 0; j < BasisRow::capacity; ++j) {
+            for (std::size_t k = 0; k < BasisRow::capacity; ++k) {
                 matrix(row.index[j], row.index[k]) +=
                     w * row.value[row_derivative][j] * row.value[column_derivative][k];
             }
@@ -56,9 +54,9 @@ Eigen::MatrixXd energy_form(const ModeSpace& space, const BasePoints& base, Colu
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(splines.dimension(), splines.dimension());
     for (std::size_t i = 0; i < membrane.xi.size(); ++i) {
         const BasisRow row = splines.basis(membrane.xi[i], static_cast<Index>(i) / membrane.points_per_element());
-        for (std::size_t k = 0; k < functions; ++k) {
+        for (std::size_t k = 0; k < BasisRow::capacity; ++k) {
             const SurfaceAmplitudes image = hessian_times(base.energy[i], columns(i, row, k));
-            for (std::size_t j = 0; j < functions; ++j) {
+            for (std::size_t j = 0; j < BasisRow::capacity; ++j) {
                 matrix(row.index[j], row.index[k]) +=
                     membrane.weight[i] * dot(concentration_of(space.mode(), row, j), image);
             }
@@ -135,7 +133,7 @@ class Diffusion {
         for (std::size_t i = 0; i < membrane.xi.size(); ++i) {
             const BasisRow& row = membrane.axial_rows[i];
             const auto [value, slope] = weak_at(i);
-            for (std::size_t j = 0; j < functions; ++j)
+            for (std::size_t j = 0; j < BasisRow::capacity; ++j)
                 weak[row.index[j]] += membrane.weight[i] * (value * row.value[0][j] + slope * row.value[1][j]);
         }
         return profile_of(membrane, concentration_from_moments(membrane, samples_.curve, weak));
@@ -239,9 +237,9 @@ MoleculeForms exchange_forms(const ModeSpace& space, const BasePoints& points, c
         const double from_c = rate.partial[0] + rate.partial[1] * by_c[local::concentration];
         const double from_curvature = rate.partial[1] * by_c[local::curvature];
         const BasisRow row = splines.basis(membrane.xi[i], static_cast<Index>(i) / membrane.points_per_element());
-        for (std::size_t k = 0; k < functions; ++k) {
+        for (std::size_t k = 0; k < BasisRow::capacity; ++k) {
             const double curvature = dot(points.curvature[i], normal_displacement(space.mode(), p, row, k));
-            for (std::size_t j = 0; j < functions; ++j) {
+            for (std::size_t j = 0; j < BasisRow::capacity; ++j) {
                 const double test = area(i) * row.value[0][j];
                 forms.by_concentration(row.index[j], row.index[k]) += test * from_c * row.value[0][k];
                 forms.by_displacement(row.index[j], row.index[k]) += test * from_curvature * curvature;

@@ -18,13 +18,13 @@ using namespace endoflow::boundary_integral::testing;
 
 using std::numbers::pi;
 
-struct Drop {
+struct DropMotion {
     double speed;          // u_z at the front pole
     double nonuniformity;  // largest deviation of u.n / n_z from it
 };
 
 // A sphere of radius 1 with the normal force density z n (buoyancy): total force 4 pi/3.
-Drop rising_drop(Index elements, double inner, double outer) {
+DropMotion rising_drop(Index elements, double inner, double outer) {
     const MembraneSpace space(elements, 8);
     const auto state = state_of(
         space, [](double x) { return std::sin(pi * x); }, [](double x) { return std::cos(pi * x); },
@@ -61,7 +61,7 @@ Drop rising_drop(Index elements, double inner, double outer) {
         spline_of(force, [](double x) { return std::cos(pi * x) * std::cos(pi * x); });
     const Eigen::VectorXd u = LuFactors(matrix, "drop").solve(layers.single * density);
     const Eigen::VectorXd u_r = u.head(space.radial_count()), u_z = u.tail(space.axial_count());
-    Drop drop{u_z[0], 0};
+    DropMotion drop{u_z[0], 0};
     drop.speed = space.axial().basis(0).evaluate(u_z);
     for (double xi = 0.02; xi < 1; xi += 0.05) {
         const CurvePoint p = curve_point(space.radial().basis(xi), space.axial().basis(xi), state);
@@ -78,7 +78,7 @@ TEST_CASE("a rising drop has the drag of Hadamard and Rybczynski", "[layers]") {
     const auto cases = stokes_reference("hadamard_rybczynski");  // viscosity ratio inside/outside
     REQUIRE(cases.size() == 3);
     for (const auto& [ratio, factor] : cases) {
-        const Drop drop = rising_drop(32, ratio, 1);
+        const DropMotion drop = rising_drop(32, ratio, 1);
         const double ours = (4 * pi / 3) / (6 * pi * drop.speed);
         CAPTURE(ratio, ours, factor);
         CHECK(ours == Approx(factor).epsilon(1e-6));

@@ -20,7 +20,7 @@ using namespace endoflow::phasefield::production;
 
 namespace {
 
-StepNumbers numbers(const Parameters& p) {
+StepNumbers numbers_of(const Parameters& p) {
     return step_numbers(p, 40, scheme_rates(p).profile_relaxation);
 }
 
@@ -53,7 +53,7 @@ double first_volume_rate(double epsilon, double cell_size) {
 double change_of_stretch(const Parameters& p, double psi, double motion) {
     constexpr double tau = 1e-3;
     const auto bdf = bdf_coefficients(0, {-tau, -2 * tau, -3 * tau}, 3);
-    StepNumbers step = numbers(p);
+    StepNumbers step = numbers_of(p);
     step.rate = bdf.rate;
     const auto profile = [&](double at) { return layer_profile(at, p.phase_field.epsilon); };
     const auto row = [&](double z) {
@@ -89,7 +89,7 @@ TEST_CASE("what keeps G constant along the normal exerts no net force", "[produc
     past.normal = past.molecules_normal = {0.6, -0.8};
     const double chi_r = 2e-5, chi_z = 3e-5;  // so small that the force does not fade: by 4e-8 of itself
     const GradientChange change{0, past.normal.r * chi_r + past.normal.z * chi_z};
-    const auto rows = point_equations(x, 7.0, past, change, numbers(p), LayerEnergy(p));
+    const auto rows = point_equations(x, 7.0, past, change, numbers_of(p), LayerEnergy(p));
     const auto& own = rows[normal_force];
     const double aligned = own.r * chi_r + own.z * chi_z, force = own.value * x[distance].z + aligned;
     CHECK(std::abs(aligned) > 1e-5);

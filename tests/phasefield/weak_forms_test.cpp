@@ -57,11 +57,11 @@ namespace {
 /// the cylinder.
 double diffuse_energy(double radius, int dimension, double stiffness, double curvature, double epsilon) {
     const int n = 40000;
-    const double reach = 12 * epsilon, step = 2 * reach / n, k = 1 / (std::sqrt(2.0) * epsilon);
+    const double reach = 12 * epsilon, step = 2 * reach / n, steepness = 1 / (std::sqrt(2.0) * epsilon);
     double sum = 0;
     for (int i = 0; i < n; ++i) {
         const double r = radius - reach + (i + 0.5) * step, phi = equilibrium_profile(radius - r, epsilon);
-        const double slope = -k * (1 - phi * phi), second = -2 * k * k * phi * (1 - phi * phi);
+        const double slope = -steepness * (1 - phi * phi), second = -2 * steepness * steepness * phi * (1 - phi * phi);
         const double laplacian = second + (dimension - 1) / r * slope;
         const double f = epsilon * laplacian - well_force(phi, curvature, epsilon).value;
         const double shell = dimension == 3 ? 4 * M_PI * r * r : 2 * M_PI * r;
