@@ -23,9 +23,20 @@ class Rung:
     settings: dict = field(hash=False)
 
 
-#: Changes of cases/printed.toml, in this order; each keeps those before it.
+#: Changes of cases/printed.toml, in this order; each keeps those before it. Steps and time level come first, and γ
+#: before the profile: otherwise most do not get to the end.
 RUNGS = (
     Rung("printed", "as printed", {}),
+    Rung(
+        "steps",
+        "steps held back by the membrane's motion",
+        {"phase_field.paper.step_rule": "guarded", "phase_field.paper.ramp_steps": "10"},
+    ),
+    Rung(
+        "level",
+        "forces at the new time, advection centred",
+        {"phase_field.paper.force_centering": "1", "phase_field.paper.advection_centering": "0.5"},
+    ),
     Rung("unknown", "β f as the unknown, not f", {"phase_field.paper.bending_unknown": "moment"}),
     Rung(
         "degree",
@@ -39,19 +50,9 @@ RUNGS = (
     ),
     Rung("xi", "ξ a thousandth", {"phase_field.paper.tension_extension": "0.390625"}),
     Rung("zeta", "ζ = 0.05/τ instead of 1/τ", {"phase_field.paper.stretching_relaxation": "0.05"}),
-    Rung(
-        "level",
-        "forces at the new time, advection centred",
-        {"phase_field.paper.force_centering": "1", "phase_field.paper.advection_centering": "0.5"},
-    ),
-    Rung("profile", "the profile is restored along the normal", {"phase_field.paper.profile_mobility": "600"}),
     Rung("mobility", "γ = 0.0064 nm²/(pN µs)", {"phase_field.paper.mobility": "0.0064"}),
+    Rung("profile", "the profile is restored along the normal", {"phase_field.paper.profile_mobility": "600"}),
     Rung("inertia", "Stokes flow", {"fluid.inertia": "false"}),
-    Rung(
-        "steps",
-        "steps held back by the membrane's motion",
-        {"phase_field.paper.step_rule": "guarded", "phase_field.paper.ramp_steps": "10"},
-    ),
 )
 
 #: Then the diffuse engine's own scheme, with the layer of the paper, and the sharp engine.

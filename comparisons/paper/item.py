@@ -69,10 +69,10 @@ def is_run(found):
 
 
 def state_of(found):
-    """How a run ended, or why there is none."""
+    """How a run ended, that it has not, or why there is none."""
     if found is None:
         return "not asked for"
-    return found.record["exit_reason"] if is_run(found) else f"not run: {found.reason}"
+    return (found.record["exit_reason"] or found.record["state"]) if is_run(found) else f"not run: {found.reason}"
 
 
 def last_time(run):
