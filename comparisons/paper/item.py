@@ -68,11 +68,16 @@ def is_run(found):
     return found is not None and not isinstance(found, NotRun)
 
 
+def ended_as(record):
+    """Why the run of a run.json ended, or else its state; None of an empty one."""
+    return record.get("exit_reason") or record.get("state")
+
+
 def state_of(found):
     """How a run ended, that it has not, or why there is none."""
     if found is None:
         return "not asked for"
-    return (found.record["exit_reason"] or found.record["state"]) if is_run(found) else f"not run: {found.reason}"
+    return ended_as(found.record) if is_run(found) else f"not run: {found.reason}"
 
 
 def last_time(run):

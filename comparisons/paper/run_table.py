@@ -3,7 +3,7 @@
 from comparisons.studies.cost import expected_seconds
 from comparisons.studies.members import FINISHED, Member, covers, differing_parameters, read_record, work_left
 
-from .item import NotRun
+from .item import NotRun, ended_as
 
 
 def rows(members):
@@ -29,7 +29,7 @@ def row(member: Member):
         "case": member.case.stem,
         "settings": " ".join(member.settings),
         "end_us": member.end,
-        "state": record.get("exit_reason") or record.get("state") or "not run",
+        "state": ended_as(record) or "not run",
         "time_us": time,
         "steps": record.get("steps", {}).get("accepted"),
         "cpu_s": record.get("cpu_s"),
