@@ -5,7 +5,7 @@ import numpy as np
 from comparisons.drawing import style
 from comparisons.drawing.pyplot import plt
 
-from .item import PHASE_FIELD, Printed, Result, Wanted, text, value_at
+from .item import PHASE_FIELD, Printed, Result, Wanted, end_of, is_run, state_of, text, value_at
 from .printed import QUICK_TIME, SHARP_AREA, TIME, quick_sentence, settings
 
 TITLE = "Table 2: sensitivity of the membrane area"
@@ -21,6 +21,10 @@ PAPER = {
 #: The paper's average area (nm²) at TIME, and the paper's τ (ns) of the runs that vary h.
 PAPER_AREA, STEP_FOR_H = 2.27e4, 0.1
 
+#: The column of h once more, with the τ of the columns γ and ε: not printed, but with STEP_FOR_H no run gets to TIME.
+OTHER_STEP = "h, τ = 2 ns"
+COLUMNS = PAPER | {OTHER_STEP: PAPER["h"]}
+
 
 def name_of(symbol, value):
     """Name of a run."""
@@ -34,23 +38,57 @@ def wanted(quick):
             name_of(symbol, value),
             PHASE_FIELD,
             "printed",
-            settings({symbol: value} | ({"τ": STEP_FOR_H} if symbol == "h" and not quick else {}), quick),
+            settings(values_of(symbol, value, quick), quick),
             QUICK_TIME if quick else TIME,
         )
-        for symbol, (_, entries) in PAPER.items()
+        for symbol, (_, entries) in COLUMNS.items()
         for value, _ in entries
     ]
 
 
-def areas(runs, quick):
-    """{(symbol, printed value): area in nm², None without a run that got so far}."""
-    end = QUICK_TIME if quick else TIME
+def values_of(symbol, value, quick):
+    """What an entry of the table changes, as printed.settings takes it."""
+    if symbol == OTHER_STEP:
+        return {"h": value}
+    return {symbol: value} | ({"τ": STEP_FOR_H} if symbol == "h" and not quick else {})
+
+
+#: Part of its time by which a run that ends early is still sound: it blows up in its last steps.
+SOUND = 0.9
+
+
+def times(runs, end):
+    """{symbol: the time (µs) at which its column is compared}: the end, or the last one at which all its runs are sound."""
     found = {}
-    for symbol, (_, entries) in PAPER.items():
+    for symbol, (_, entries) in COLUMNS.items():
+        own = [runs[name_of(symbol, value)].get(PHASE_FIELD) for value, _ in entries]
+        found[symbol] = min([end, *(SOUND * end_of(run) for run in own if ends_early(run, end))])
+    return found
+
+
+def ends_early(run, end):
+    """Whether there is a run that did not get to a time (µs)."""
+    return is_run(run) and end_of(run) < end * (1 - 1e-9)
+
+
+def areas(runs, time):
+    """{(symbol, printed value): area in nm² at the column's time[symbol], None without a run}."""
+    found = {}
+    for symbol, (_, entries) in COLUMNS.items():
         for value, _ in entries:
             run = runs[name_of(symbol, value)].get(PHASE_FIELD)
-            found[symbol, value] = value_at(run, "membrane_area_nm2", end)
+            found[symbol, value] = value_at(run, "membrane_area_nm2", time[symbol])
     return found
+
+
+def early_ends(runs, end):
+    """One sentence for each run that ended before the time of the table."""
+    ended = {name: own.get(PHASE_FIELD) for name, own in runs.items()}
+    return [
+        f"{name} ends at {end_of(run):.3g} µs: {state_of(run)}."
+        for name, run in ended.items()
+        if ends_early(run, end)
+    ]
 
 
 def printed_limits():
@@ -68,15 +106,15 @@ def printed_limits():
     }
 
 
-def rows_of(area, end):
-    """One row for each entry of the table."""
+def rows_of(area, time):
+    """One row for each entry of the table; time: {symbol: µs}."""
     rows = []
-    for symbol, (unit, entries) in PAPER.items():
+    for symbol, (unit, entries) in COLUMNS.items():
         reference = area[symbol, entries[-1][0]]
         for value, change in entries:
             known = None not in (area[symbol, value], reference)
             ours = 100 * (area[symbol, value] - reference) / reference if known else None
-            row = {"parameter": symbol, "printed_value": value, "unit": unit, "time_us": end}
+            row = {"parameter": symbol, "printed_value": value, "unit": unit, "time_us": time[symbol]}
             row |= {"paper_change_percent": change, "area_nm2": area[symbol, value]}
             rows.append(row | {"change_percent": ours if ours is None else abs(ours), "signed_change_percent": ours})
     return rows
@@ -85,18 +123,21 @@ def rows_of(area, end):
 def result(runs, quick):
     """See item.Result."""
     end = QUICK_TIME if quick else TIME
-    area = areas(runs, quick)
-    rows = rows_of(area, end)
+    time = times(runs, end)
+    area = areas(runs, time)
+    rows = rows_of(area, time)
     printed = [
         Printed(
-            f"{row['parameter']} = {row['printed_value']:g} {row['unit']}",
+            f"{row['parameter']}: {row['printed_value']:g} {row['unit']}"
+            + ("" if row["time_us"] == end else f", at {row['time_us']:.3g} µs"),
             f"{row['paper_change_percent']:g} %",
             {PHASE_FIELD: text(row["signed_change_percent"], 3, "%")},
         )
         for row in rows
         if row["paper_change_percent"] is not None
     ]
-    known = [value for value in area.values() if value is not None]
+    known = [row["area_nm2"] for row in rows if row["time_us"] == end and row["parameter"] != OTHER_STEP]
+    known = [value for value in known if value is not None]
     mean = sum(known) / len(known) if known else None
     printed.append(
         Printed(f"area at {end:g} µs, nm²", f"≈ {PAPER_AREA:g} at {TIME:g} µs", {PHASE_FIELD: text(mean, 5)})
@@ -108,19 +149,21 @@ def result(runs, quick):
         "γ: Table 1's 6.4 nm³/s lacks a unit of energy; it is read as 6.4·10⁻⁶ nm²/(pN µs) (energies in pN nm). "
         "The item “mobility” goes through the other readings.",
         "The changes have signs here, the print has none.",
+        f"The paper varies h with τ = {STEP_FOR_H:g} ns; “{OTHER_STEP}” is the same with the τ of the other columns.",
         f"The printed column of ε, if thicker layers are slower and {PAPER_AREA:g} nm² is the area of the thinnest, goes to "
         f"{limits['line']:.0f} (a line), {limits['two thinnest']:.0f} (the two thinnest) or {limits['parabola']:.0f} nm² (a parabola) at "
         f"ε = 0: to the sharp membrane's {SHARP_AREA:.0f}, not away from it. A caveat: the print gives no signs, calls the area an average "
         "of all runs, and varies h and, having one ε, the width of the coat's edge together with the layer.",
+        *early_ends(runs, end),
         *quick_sentence(quick),
     ]
-    return Result(rows, {"table2": (f"Relative change of the area at {end:g} µs", draw(rows))}, printed, remarks)
+    return Result(rows, {"table2": (f"Relative change of the area at {end:g} µs", draw(rows, end))}, printed, remarks)
 
 
-def draw(rows):
+def draw(rows, end):
     """Relative changes against the parameter, paper and engine."""
-    figure, panels = plt.subplots(1, len(PAPER), figsize=(11.5, 3.3), sharey=True, layout="constrained")
-    for axes, (symbol, (unit, _)) in zip(panels, PAPER.items()):
+    figure, panels = plt.subplots(1, len(COLUMNS), figsize=(13.5, 3.3), sharey=True, layout="constrained")
+    for axes, (symbol, (unit, _)) in zip(panels, COLUMNS.items()):
         own = [row for row in rows if row["parameter"] == symbol]
         for column, look in (
             ("paper_change_percent", {"color": "#333333", "marker": "*", "linestyle": ":", "label": "paper"}),
@@ -133,8 +176,9 @@ def draw(rows):
         axes.set_yscale("log")
         axes.set_xticks([row["printed_value"] for row in own], [f"{row['printed_value']:g}" for row in own])
         axes.minorticks_off()
-        axes.set_xlabel(f"{symbol} ({unit}), as printed")
-        axes.set_title(symbol)
+        axes.set_xlabel(f"{symbol[0]} ({unit}), as printed")
+        time = own[0]["time_us"]
+        axes.set_title(symbol if time == end else f"{symbol}, at {time:.2g} µs")
     panels[0].set_ylabel("relative change (%)")
     panels[0].legend()
     return figure

@@ -8,7 +8,7 @@ import numpy as np
 import endoflow
 from comparisons.commands.reproduce import LONGEST_NAME, short_enough
 from comparisons.paper import attribution, fig5, mobility, printed, table2, timescale
-from comparisons.paper.item import NotRun, filled, state_of, value_at
+from comparisons.paper.item import PHASE_FIELD, NotRun, filled, state_of, value_at
 from comparisons.studies.members import flat_parameters
 
 
@@ -67,7 +67,8 @@ class PrintedSettings(unittest.TestCase):
     def test_the_column_of_h_has_the_print_s_short_steps(self):
         runs = {one.name: one.settings for one in table2.wanted(False)}
         self.assertEqual(runs["h=0.63"], {"phase_field.cell_size": "0.45", "phase_field.paper.max_step": "0.0001"})
-        self.assertEqual(len({tuple(sorted(own.items())) for own in runs.values()}), 13, "three are one run")
+        self.assertEqual(runs["h, τ = 2 ns=0.63"], {"phase_field.cell_size": "0.45"})
+        self.assertEqual(len({tuple(sorted(own.items())) for own in runs.values()}), 16, "four are one run")
 
 
 class Table2(unittest.TestCase):
@@ -79,10 +80,19 @@ class Table2(unittest.TestCase):
         self.assertAlmostEqual(limits["parabola"], 24850, delta=20)
 
     def test_changes_have_signs(self):
-        area = {(symbol, value): 100.0 for symbol, (_, entries) in table2.PAPER.items() for value, _ in entries}
+        area = {(symbol, value): 100.0 for symbol, (_, entries) in table2.COLUMNS.items() for value, _ in entries}
         area["ε", 2.4] = 90.0
-        row = next(r for r in table2.rows_of(area, 0.5) if (r["parameter"], r["printed_value"]) == ("ε", 2.4))
+        time = dict.fromkeys(table2.COLUMNS, 0.5)
+        row = next(r for r in table2.rows_of(area, time) if (r["parameter"], r["printed_value"]) == ("ε", 2.4))
         self.assertEqual((row["signed_change_percent"], row["change_percent"]), (-10, 10))
+
+    def test_a_column_is_compared_where_all_its_runs_are_sound(self):
+        runs = {one.name: {PHASE_FIELD: run_with((20106, 22700))} for one in table2.wanted(False)}
+        runs["h=1.77"] = {PHASE_FIELD: run_with((20106, 20500), (0.0, 0.0629))}
+        time = table2.times(runs, 0.5)
+        self.assertEqual((time["h"], time["ε"]), (0.9 * 0.0629, 0.5))
+        self.assertAlmostEqual(table2.areas(runs, time)["h", 1.77], 20106 + 0.9 * (20500 - 20106))
+        self.assertIn("h=1.77 ends at 0.0629 µs", table2.early_ends(runs, 0.5)[0])
 
 
 class Attribution(unittest.TestCase):
