@@ -40,6 +40,9 @@ class HistoryRecorder {
     /// it. Throws SolverError when the membrane is in a state that the model does not hold for.
     void record(double time, const Evaluation& evaluation, const StiffIntegrator& integrator);
 
+    /// Elements were added at a time [µs]: what interpolating to them left relaxes at first.
+    void settle(double since);
+
     /// Time of the last row, µs.
     [[nodiscard]] double last_row() const { return last_row_; }
 
@@ -54,6 +57,7 @@ class HistoryRecorder {
     MoleculeBalance molecules_;
     MaterialRates strain_rates_;  // at the last row
     double last_row_ = 0.0;       // µs
+    double settled_from_ = 0.0;   // µs
 
     [[nodiscard]] double resolution_error(const MembraneState& state) const;
 };

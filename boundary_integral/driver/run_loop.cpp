@@ -180,6 +180,7 @@ class RunLoop {
             events_.restore(*from_);
             refinements_ = from_->array("refinement_times");
             elements_ = from_->array("refinement_elements");
+            if (refinements_.size() > 1) history_.settle(refinements_.back());
             return restored_start(*from_, dynamics_.size(), output_.directory().string());
         }
         refinements_ = {0.0};

@@ -74,9 +74,11 @@ double AccuracyWatch::measured(const AccuracyBound& bound, const HistoryRow& row
 
 std::vector<Alarm> AccuracyWatch::look_at(const HistoryRow& row, RunRecord& record) const {
     std::vector<Alarm> alarms;
-    for (const AccuracyBound& bound : bounds_)
+    for (const AccuracyBound& bound : bounds_) {
+        if (row.settling && bound.of_rates) continue;
         if (const auto alarm = look_at(bound, row.time_us, measured(bound, row, entry(record, bound)), record))
             alarms.push_back(*alarm);
+    }
     return alarms;
 }
 

@@ -32,6 +32,7 @@ struct AccuracyBound {
     std::string remedy;
     std::function<bool(const Parameters&)> applies = {};  // empty: to every case
     std::string asked_for = {};                           // section.key of the parameter that is the bound in a run
+    bool of_rates = false;                                // says nothing while a row is settling
 };
 
 /// All bounds of all engines; the table in docs/outputs.md is this one.

@@ -17,6 +17,7 @@ struct HistoryRow {
     double area_strain_max = 0;
     double wall_s = 0;
     std::vector<double> extra;  ///< the engine's own columns, in the order it named them
+    bool settling = false;      ///< the mesh has just changed: what that left relaxes, and rates are those of that
 };
 
 /// A column that the histories of all engines have. Its name ends in its unit.

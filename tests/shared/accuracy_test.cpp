@@ -77,6 +77,17 @@ TEST_CASE("beyond its limit a quantity stops the run under its own name") {
     }
 }
 
+TEST_CASE("rates of a row that settles after a change of the mesh say nothing, states do") {
+    const TemporaryDirectory directory;
+    RunOutput output(Parameters{}, sharp_engine(), directory.path() / "run", StartMode::fresh);
+    HistoryRow row = balanced_row(0.1, 0.6);
+    row.settling = true;
+    CHECK_NOTHROW(output.record_step(row));
+    row.time_us = 0.2;
+    row.settling = false;
+    CHECK_THROWS_AS(output.record_step(row), SolverError);
+}
+
 TEST_CASE("a membrane that stretches freely need not grow by what flows in") {
     const auto grows_by_itself = [](const Parameters& p) {
         const TemporaryDirectory directory;
