@@ -6,7 +6,7 @@ from comparisons.drawing import style
 from comparisons.drawing.pyplot import plt
 
 from .item import PHASE_FIELD, Printed, Result, Wanted, end_of, is_run, state_of, text, value_at
-from .printed import QUICK_TIME, SHARP_AREA, TIME, quick_sentence, settings
+from .printed import QUICK_TIME, SHARP_AREA, STANDARD, TIME, quick_sentence, settings
 
 TITLE = "Table 2: sensitivity of the membrane area"
 
@@ -22,8 +22,11 @@ PAPER = {
 PAPER_AREA, STEP_FOR_H = 2.27e4, 0.1
 
 #: The column of h once more, with the τ of the columns γ and ε: not printed, but with STEP_FOR_H no run gets to TIME.
-OTHER_STEP = "h, τ = 2 ns"
+OTHER_STEP = f"h, τ = {STANDARD['τ']:g} ns"
 COLUMNS = PAPER | {OTHER_STEP: PAPER["h"]}
+
+#: Part of its time by which a run that ends early is still sound: it blows up in its last steps.
+SOUND = 0.9
 
 
 def name_of(symbol, value):
@@ -53,15 +56,16 @@ def values_of(symbol, value, quick):
     return {symbol: value} | ({"τ": STEP_FOR_H} if symbol == "h" and not quick else {})
 
 
-#: Part of its time by which a run that ends early is still sound: it blows up in its last steps.
-SOUND = 0.9
+def run_of(runs, symbol, value):
+    """The run of an entry, or why there is none."""
+    return runs[name_of(symbol, value)].get(PHASE_FIELD)
 
 
 def times(runs, end):
     """{symbol: the time (µs) at which its column is compared}: the end, or the last one at which all its runs are sound."""
     found = {}
     for symbol, (_, entries) in COLUMNS.items():
-        own = [runs[name_of(symbol, value)].get(PHASE_FIELD) for value, _ in entries]
+        own = [run_of(runs, symbol, value) for value, _ in entries]
         found[symbol] = min([end, *(SOUND * end_of(run) for run in own if ends_early(run, end))])
     return found
 
@@ -73,12 +77,11 @@ def ends_early(run, end):
 
 def areas(runs, time):
     """{(symbol, printed value): area in nm² at the column's time[symbol], None without a run}."""
-    found = {}
-    for symbol, (_, entries) in COLUMNS.items():
-        for value, _ in entries:
-            run = runs[name_of(symbol, value)].get(PHASE_FIELD)
-            found[symbol, value] = value_at(run, "membrane_area_nm2", time[symbol])
-    return found
+    return {
+        (symbol, value): value_at(run_of(runs, symbol, value), "membrane_area_nm2", time[symbol])
+        for symbol, (_, entries) in COLUMNS.items()
+        for value, _ in entries
+    }
 
 
 def early_ends(runs, end):
@@ -136,8 +139,11 @@ def result(runs, quick):
         for row in rows
         if row["paper_change_percent"] is not None
     ]
-    known = [row["area_nm2"] for row in rows if row["time_us"] == end and row["parameter"] != OTHER_STEP]
-    known = [value for value in known if value is not None]
+    known = [
+        area[symbol, value]
+        for symbol, value in area
+        if symbol != OTHER_STEP and time[symbol] == end and area[symbol, value] is not None
+    ]
     mean = sum(known) / len(known) if known else None
     printed.append(
         Printed(f"area at {end:g} µs, nm²", f"≈ {PAPER_AREA:g} at {TIME:g} µs", {PHASE_FIELD: text(mean, 5)})

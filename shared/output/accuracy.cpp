@@ -49,6 +49,7 @@ double AccuracyWatch::measured(const AccuracyBound& bound, const HistoryRow& row
     const double value = value_of(bound.column, row, columns_).value_or(0);
     switch (bound.measure) {
         case AccuracyMeasure::value:
+        case AccuracyMeasure::rate:
             return std::abs(value);
         case AccuracyMeasure::drift: {
             if (!memory.contains("first")) memory["first"] = value;
@@ -75,7 +76,7 @@ double AccuracyWatch::measured(const AccuracyBound& bound, const HistoryRow& row
 std::vector<Alarm> AccuracyWatch::look_at(const HistoryRow& row, RunRecord& record) const {
     std::vector<Alarm> alarms;
     for (const AccuracyBound& bound : bounds_) {
-        if (row.settling && bound.of_rates) continue;
+        if (row.settling && bound.measure == AccuracyMeasure::rate) continue;
         if (const auto alarm = look_at(bound, row.time_us, measured(bound, row, entry(record, bound)), record))
             alarms.push_back(*alarm);
     }

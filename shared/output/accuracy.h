@@ -15,6 +15,7 @@ namespace endoflow {
 /// How a quantity that says how accurate a run is follows from a column of its history.
 enum class AccuracyMeasure {
     value,       ///< |column|
+    rate,        ///< |column| too, but that of a settling row says nothing
     drift,       ///< |column − its first value| / |its first value|
     accumulated  ///< |∫ column dt| / the larger one of the membrane's largest energy, bending and edge, and the loads'
                  ///< work ∫ |power| dt, both so far: a flat membrane that a force pulls has no energy yet
@@ -32,7 +33,6 @@ struct AccuracyBound {
     std::string remedy;
     std::function<bool(const Parameters&)> applies = {};  // empty: to every case
     std::string asked_for = {};                           // section.key of the parameter that is the bound in a run
-    bool of_rates = false;                                // says nothing while a row is settling
 };
 
 /// All bounds of all engines; the table in docs/outputs.md is this one.
