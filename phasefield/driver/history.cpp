@@ -27,6 +27,8 @@ const std::vector<OwnColumn<StepRecord>>& own_history_columns() {
          [](const R& r) { return r.diagnostics.thickness_error_max; }},
         {"profile_error_max", "the same on |φ| < 0.9, where the layers of bud and plane meet outside of a narrow neck",
          [](const R& r) { return r.diagnostics.profile_error_max; }},
+        {"layer_at_neck_relative", "ε at the neck over the neck's radius; 0 without a neck",
+         [](const R& r) { return r.layer_at_neck; }},
         {"motion_max_nm", "motion in the step on |φ| < 0.9", [](const R& r) { return r.diagnostics.motion_max; }},
         {"net_vertical_force_pN", "of the membrane and its loads on the fluid, which the pinned rim takes up",
          [](const R& r) { return r.diagnostics.net_vertical_force; }},

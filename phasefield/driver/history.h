@@ -17,6 +17,7 @@ struct StepRecord {
     double energy_law_residual;  // d(E + E_c)/dt + dissipation − power of transport and loads [pN nm/µs], (21)
     MoleculeBalance molecules;
     double unknowns, cells;
+    double layer_at_neck;  // ε over the neck's radius; 0 without a neck
 };
 
 /// The engine's own columns of history.csv.

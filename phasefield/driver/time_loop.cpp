@@ -134,7 +134,16 @@ void TimeLoop::record(double tau, const StepDiagnostics& diagnostics) {
     last_energy_ = energy;
     last_loss_ = loss;
     output_.record_step(make_history_row({time_, tau, diagnostics, scheme_->integrate(), observables_, residual,
-                                          molecules_, scheme_->unknowns(), scheme_->cells()}));
+                                          molecules_, scheme_->unknowns(), scheme_->cells(), layer_at_neck()}));
+}
+
+double TimeLoop::layer_at_neck() const {
+    if (!observables_.neck) return 0;
+    const std::vector<double>&r = contour_.curve.r, &z = contour_.curve.z;
+    std::size_t i = 0;  // the first point behind the neck, whose place is a chord length
+    for (double length = 0; i + 1 < r.size() && length < observables_.neck->t; ++i)
+        length += std::hypot(r[i + 1] - r[i], z[i + 1] - z[i]);
+    return scheme_->thickness_at(r[i], z[i]) / observables_.neck->radius;
 }
 
 void TimeLoop::note_solver() const {

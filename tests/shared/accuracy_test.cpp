@@ -166,6 +166,21 @@ TEST_CASE("a membrane that may stretch raises no alarm of strain") {
     }
 }
 
+TEST_CASE("a layer that is thick for its neck is an alarm of scheme `production`, and never the end") {
+    RunRecord record;
+    const HistoryRow thin = row_at(0.1, {0, 0.086}), thick = row_at(0.2, {0, 0.13}), thicker = row_at(0.3, {0, 5});
+    Parameters parameters;
+    const AccuracyWatch watch(parameters, diffuse_engine("layer_at_neck_relative"));
+    CHECK(watch.look_at(thin, record).empty());
+    const auto alarms = watch.look_at(thick, record);
+    REQUIRE(alarms.size() == 1);
+    CHECK(alarms[0].name == "layer-at-neck");
+    CHECK_NOTHROW(watch.look_at(thicker, record));
+    parameters.phase_field.scheme = PhaseFieldScheme::paper;
+    RunRecord printed;
+    CHECK(AccuracyWatch(parameters, diffuse_engine("layer_at_neck_relative")).look_at(thick, printed).empty());
+}
+
 TEST_CASE("every bound is below its limit, names what to change, and belongs to an engine") {
     for (const AccuracyBound& bound : accuracy_bounds()) {
         INFO(bound.engine << " " << bound.name);

@@ -60,6 +60,8 @@ class Scheme {
     [[nodiscard]] virtual std::vector<NamedNumber> constants() const { return {}; }
     /// Counts of what its solver has done so far, restarts included, for run.json.
     [[nodiscard]] virtual std::vector<NamedNumber> solver_counts() const { return {}; }
+    /// ε of the membrane's layer at a point of the membrane [nm].
+    [[nodiscard]] virtual double thickness_at(double r, double z) const = 0;
     [[nodiscard]] virtual double unknowns() const = 0;
     [[nodiscard]] virtual double cells() const = 0;
 };

@@ -114,6 +114,10 @@ void PaperScheme::write_fields(const std::filesystem::path& run_directory, std::
                         discretization_.parameters.phase_field.paper);
 }
 
+double PaperScheme::thickness_at(double /*r*/, double /*z*/) const {
+    return discretization_.parameters.phase_field.epsilon;
+}
+
 double PaperScheme::unknowns() const {
     return static_cast<double>(discretization_.spaces.flow.dofs.n_dofs());
 }

@@ -26,6 +26,7 @@ class PaperScheme : public Scheme {
     [[nodiscard]] Contour contour_at(double time) const override;
     void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
                       double time) const override;
+    [[nodiscard]] double thickness_at(double /*r*/, double /*z*/) const override;
     [[nodiscard]] double unknowns() const override;
     [[nodiscard]] double cells() const override;
 

@@ -127,6 +127,10 @@ void ProductionScheme::foresee_thickness(double tau) {
     restore_molecules();
 }
 
+double ProductionScheme::thickness_at(double r, double z) const {
+    return numbers_.thickness ? numbers_.thickness->curve().at(r, z) : parameters_.phase_field.epsilon;
+}
+
 void ProductionScheme::renew() {
     distribute();
     solver_.reinit(space_);

@@ -30,6 +30,7 @@ class ProductionScheme : public Scheme {
     [[nodiscard]] Contour contour_at(double time) const override { return contour(polynomial(time, times_.size())); }
     void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
                       double time) const override;
+    [[nodiscard]] double thickness_at(double r, double z) const override;
     [[nodiscard]] double unknowns() const override { return static_cast<double>(space_.dofs.n_dofs()); }
     [[nodiscard]] double cells() const override { return static_cast<double>(mesh_->n_global_active_cells()); }
     [[nodiscard]] std::vector<NamedNumber> constants() const override;
