@@ -30,7 +30,6 @@ constexpr double tolerated_excess = constant("tolerated_excess");
 constexpr double newton_part = constant("newton_part");
 constexpr double smallest_step = constant("smallest_step");
 constexpr double largest_motion = constant("largest_motion");
-constexpr double kept_thickness = constant("kept_thickness");
 
 /// Largest relative error of a step.
 double step_tolerance(const Parameters& p) {
@@ -119,11 +118,7 @@ void ProductionScheme::restore_molecules() {
 
 void ProductionScheme::foresee_thickness(double tau) {
     if (parameters_.phase_field.production.thinning == 0) return;
-    auto foreseen = thickness_on(*mesh_, ThicknessCurve(membrane_, tau, parameters_));
-    if (foreseen && numbers_.thickness &&
-        foreseen->difference(*numbers_.thickness, mesh_->get_communicator()) < kept_thickness)
-        return;
-    numbers_.thickness = std::move(foreseen);
+    numbers_.thickness = thickness_on(*mesh_, ThicknessCurve(membrane_, tau, parameters_));
     restore_molecules();
 }
 
