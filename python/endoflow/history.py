@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -58,6 +59,32 @@ def read_history(path: Path, columns: Iterable[str] = ("time_us",)) -> dict[str,
     if not (np.diff(history["time_us"]) >= 0).all():  # also catches nan
         raise RunDirectoryError(path, "time_us does not increase from row to row", RERUN)
     return history
+
+
+def interpolated(times: Array, values: Array, at: float | Array) -> Any:
+    """`values` of the rows at `times` as a function of time, at one (number or array); nan outside and beside gaps.
+
+    Cubic in each step, with slopes by which it overshoots nowhere: weighted harmonic means of the secants' (Fritsch &
+    Butland, SIAM J. Sci. Stat. Comput. 5, 300 (1984)). Third order in the step, second beside extrema, gaps and
+    the ends.
+    """
+    steps = np.diff(times)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        secants = np.diff(values) / steps
+        before, after, first, second = secants[:-1], secants[1:], steps[:-1], steps[1:]
+        means = 3 * (first + second) / ((2 * second + first) / before + (second + 2 * first) / after)
+    inner = np.where(before * after > 0, means, 0.0)
+    inner = np.where(np.isfinite(before), np.where(np.isfinite(after), inner, before), after)
+    slopes = np.concatenate([secants[:1], inner, secants[-1:]])
+
+    at = np.asarray(at, dtype=float)
+    k = np.clip(np.searchsorted(times, at, side="right") - 1, 0, len(times) - 2)
+    step, x = steps[k], (at - times[k]) / np.where(steps[k] > 0, steps[k], 1)
+    y = 1 - x
+    rise = values[k + 1] - values[k]
+    cubic = values[k] + rise * x * x * (1 + 2 * y) + step * x * y * (slopes[k] * y - slopes[k + 1] * x)
+    cubic = np.where(at == times[k], values[k], np.where(at == times[k + 1], values[k + 1], cubic))
+    return np.where((at >= times[0]) & (at <= times[-1]), cubic, np.nan)
 
 
 def _parse_row(path: Path, number: int, row: list[str], header: list[str]) -> list[float]:

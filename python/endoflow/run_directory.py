@@ -13,7 +13,7 @@ from .alarms import Alarm, alarms_of, is_alarm
 from .arrays import Array
 from .errors import RERUN, OutOfRangeError, RunDirectoryError
 from .fields import Fields, field_files, read_fields
-from .history import read_history, unit_of
+from .history import interpolated, read_history, unit_of
 from .shapes import Shape, between, read_shapes
 
 if TYPE_CHECKING:
@@ -96,8 +96,8 @@ class Run:
         return dataset(self, points)
 
     def history_at(self, column: str, time: float | Array) -> Any:
-        """A history column interpolated linearly at `time` (µs; number or array); nan outside the run and beside gaps."""
-        return np.interp(time, self.history["time_us"], self.history[column], left=np.nan, right=np.nan)
+        """A history column at `time` (µs; number or array), between rows by a cubic; nan outside and beside gaps."""
+        return interpolated(self.history["time_us"], self.history[column], time)
 
     def shape_at(self, time: float) -> Shape:
         """The membrane at `time` (µs), interpolated between the neighbouring shapes at fixed material points.

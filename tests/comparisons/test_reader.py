@@ -13,7 +13,7 @@ from scratch import scratch_directory
 import endoflow
 import synthetic
 from endoflow.curves import area_from_axis, equivalent_radius, local_cubic, resample
-from endoflow.history import unit_of
+from endoflow.history import interpolated, unit_of
 from endoflow.shapes import Shape, between
 
 
@@ -71,6 +71,24 @@ class LoadedRun(unittest.TestCase):
         self.assertTrue(np.isnan(neck[0]))
         self.assertFalse(np.isnan(neck[-1]))
         self.assertTrue(np.isnan(self.run_.history_at("neck_radius_nm", 0.0)))
+
+    def test_between_rows_a_history_is_of_third_order_and_overshoots_nowhere(self):
+        errors = []
+        for rows in (21, 41):  # uneven steps, sin without its extremum
+            times = np.linspace(0, 1, rows) ** 2
+            at = np.linspace(0.05, 0.9, 997)  # within
+            errors.append(np.abs(interpolated(times, np.sin(times), at) - np.sin(at)).max())
+        self.assertGreater(np.log2(errors[0] / errors[1]), 2.9)  # 3
+        self.assertLess(errors[1], 1e-5)  # linearly 3e-4
+        steps = interpolated(np.arange(6.0), np.array([0, 0, 0, 1, 1, 1.0]), np.linspace(0, 5, 101))
+        self.assertTrue((np.diff(steps) >= 0).all() and steps.min() == 0 and steps.max() == 1)
+
+    def test_between_rows_gaps_stay_gaps(self):
+        times, values = np.array([0, 1, 2, 2, 3.0]), np.array([np.nan, 1, 2, 2, 3])
+        np.testing.assert_array_equal(
+            interpolated(times, values, np.array([-1, 0.5, 1, 1.5, 2, 2.5, 3, 4])),
+            [np.nan, np.nan, 1, 1.5, 2, 2.5, 3, np.nan],
+        )
 
     def test_units_come_from_the_column_names(self):
         expected = {
