@@ -23,7 +23,7 @@ def panel(radius, run, sharp=None):
         return Panel(title, state_of(run))
     time = min(STATIONARY, last_time(run))
     if time < STATIONARY:
-        title += f", {time:.3g} µs" + ended_because(run).replace("\n", " ")
+        title += f", {time:.3g} µs" + ended_because(run)
     return with_line(Panel(title, run.shape_at(time)), sharp, time)
 
 
