@@ -35,6 +35,7 @@ class TimeLoop {
     void record(const NeckEvent& event);
     /// At a time within the last step [nm]; 0 where the membrane has come apart, infinite without a neck.
     [[nodiscard]] double neck_radius_at(double time) const;
+    /// ε over the neck's radius; 0 without a neck.
     [[nodiscard]] double layer_at_neck() const;
     void check_clearance() const;
     void write_due_output();

@@ -52,10 +52,15 @@ def local_cubic(x: Array, y: Array, x_new: Array) -> Array:
     slope[1:-1] = (h[1:] * secant[:-1] + h[:-1] * secant[1:]) / (h[1:] + h[:-1])
     slope[0] = 2 * secant[0] - slope[1]
     slope[-1] = 2 * secant[-1] - slope[-2]
+    return hermite(x, y, slope, x_new)
+
+
+def hermite(x: Array, y: Array, slope: Array, x_new: Array) -> Array:
+    """The piecewise cubic with values y and slopes (n,) at x (n,), which may repeat; returns it at x_new (m,), held at its ends."""
     i = np.clip(np.searchsorted(x, x_new, side="right") - 1, 0, len(x) - 2)
-    t = np.clip((x_new - x[i]) / h[i], 0.0, 1.0)
-    value = (1 + 2 * t) * (1 - t) ** 2 * y[i] + t**2 * (3 - 2 * t) * y[i + 1]
-    return value + h[i] * (t * (1 - t) ** 2 * slope[i] - t**2 * (1 - t) * slope[i + 1])
+    h, rise = x[i + 1] - x[i], y[i + 1] - y[i]
+    t = np.clip((x_new - x[i]) / np.where(h > 0, h, 1.0), 0.0, 1.0)
+    return y[i] + rise * t**2 * (3 - 2 * t) + h * t * (1 - t) * (slope[i] * (1 - t) - slope[i + 1] * t)
 
 
 def resample(r: Array, z: Array, spacing: float, *others: Array) -> tuple[Array, ...]:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .arrays import Array
+from .curves import hermite
 from .errors import RERUN, RunDirectoryError
 
 #: Words at the end of a column's name that spell its unit; `per` starts the denominator.
@@ -77,14 +78,9 @@ def interpolated(times: Array, values: Array, at: float | Array) -> Any:
     inner = np.where(np.isfinite(before), np.where(np.isfinite(after), inner, before), after)
     slopes = np.concatenate([secants[:1], inner, secants[-1:]])
 
-    at = np.asarray(at, dtype=float)
-    k = np.clip(np.searchsorted(times, at, side="right") - 1, 0, len(times) - 2)
-    step, x = steps[k], (at - times[k]) / np.where(steps[k] > 0, steps[k], 1)
-    y = 1 - x
-    rise = values[k + 1] - values[k]
-    cubic = values[k] + rise * x * x * (1 + 2 * y) + step * x * y * (slopes[k] * y - slopes[k + 1] * x)
-    cubic = np.where(at == times[k], values[k], np.where(at == times[k + 1], values[k + 1], cubic))
-    return np.where((at >= times[0]) & (at <= times[-1]), cubic, np.nan)
+    linear = np.interp(at, times, values, left=np.nan, right=np.nan)  # knows the rows themselves and the gaps
+    cubic = hermite(times, values, slopes, np.asarray(at))
+    return np.where(np.isin(at, times) | np.isnan(linear), linear, cubic)
 
 
 def _parse_row(path: Path, number: int, row: list[str], header: list[str]) -> list[float]:

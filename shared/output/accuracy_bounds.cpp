@@ -78,8 +78,8 @@ const std::vector<AccuracyBound>& boundary_integral_bounds() {
     return bounds;
 }
 
-// A layer leaves a neck errors of the order of (ε/ρ)²: with one in proportion, 0.086, necks are right to 1 %, at 0.125
-// by 2 to 5 % wrong, beyond by up to a fifth (docs/results/standard-case.md).
+// Of layer-at-neck: a layer leaves a neck errors of the order of (ε/ρ)²: with one in proportion, 0.086, necks are right
+// to 1 %, at 0.125 by 2 to 5 % wrong, beyond by up to a fifth (docs/results/standard-case.md).
 const std::vector<AccuracyBound>& phase_field_bounds() {
     using enum AccuracyMeasure;
     static const std::vector<AccuracyBound> bounds{

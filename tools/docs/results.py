@@ -11,7 +11,6 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
 
@@ -33,15 +32,6 @@ def table(head, rows):
     return "\n".join("| " + " | ".join(cells) + " |" for cells in [head, ["---"] * len(head), *rows])
 
 
-def at(run, column, time):
-    """A column of a run's history at a time (µs), by a monotone cubic; nan outside of the run and where there is no value."""
-    times, values = run.history["time_us"], run.history[column]
-    known = ~np.isnan(values)
-    if known.sum() < 2 or not times[known][0] <= time <= times[known][-1]:
-        return np.nan
-    return float(PchipInterpolator(times[known], values[known])(time))
-
-
 def text(numbers, form):
     """Numbers separated by commas; a dash where one does not exist."""
     if np.isnan(numbers).any():
@@ -58,7 +48,7 @@ def value(run, quantity, time):
     """A compared quantity at a time (µs)."""
     column, from_start = COMPARED[quantity]
     start = flat_area(run) if from_start and column == "membrane_area_nm2" else 0
-    return at(run, column, time) - start
+    return run.history_at(column, time) - start
 
 
 def differences(arguments):
@@ -67,7 +57,7 @@ def differences(arguments):
     rows = []
     for time in [float(text) for text in arguments.times.split(",")]:
         parts = [value(diffuse, name, time) / value(sharp, name, time) - 1 for name in COMPARED]
-        necks = [at(run, "neck_radius_nm", time) for run in (diffuse, sharp)]
+        necks = [run.history_at("neck_radius_nm", time) for run in (diffuse, sharp)]
         rows.append([f"{time:g}", *(text([part], "{:+.2%}") for part in parts), text(necks, "{:.3f}")])
     return table(["time, µs", *COMPARED, "neck, sharp, nm"], rows)
 
@@ -83,7 +73,7 @@ def refinement(arguments):
     rows = []
     for run in map(endoflow.load, arguments.runs):
         own, notes, end = run.parameters["boundary_integral"], run.record["notes"], run.history["time_us"][-1]
-        neck, area = at(run, "neck_radius_nm", end), at(run, "membrane_area_nm2", end)
+        neck, area = run.history_at("neck_radius_nm", end), run.history_at("membrane_area_nm2", end)
         rows.append(
             [str(notes["elements"]), f"{notes['time_tolerance']:.0e}", str(own["quadrature_order"])]
             + [budding(run), f"{neck:.6f}", f"{area:.4f}", str(run.record["steps"]["accepted"])]
