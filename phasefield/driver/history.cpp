@@ -5,7 +5,7 @@ namespace endoflow::phasefield {
 const std::vector<OwnColumn<StepRecord>>& own_history_columns() {
     using R = StepRecord;
     static const std::vector<OwnColumn<R>> columns{
-        {"viscous_dissipation_pN_nm_per_us", "∫ ½ ν D:D, of (21)",
+        {"viscous_dissipation_pN_nm_per_us", "∫ ½ ν D:D, of (21), with what the penalty of ∇·u takes",
          [](const R& r) { return r.diagnostics.viscous_dissipation; }},
         {"mobility_dissipation_pN_nm_per_us", "∫ γ g², of (21)",
          [](const R& r) { return r.diagnostics.mobility_dissipation; }},

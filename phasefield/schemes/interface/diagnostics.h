@@ -21,7 +21,7 @@ struct BulkMeasures {
 /// What one time step did; collective.
 struct StepDiagnostics {
     double bending_energy;        // (D) [pN nm]
-    double viscous_dissipation;   // ∫ ½ ν D:D [pN nm/µs]
+    double viscous_dissipation;   // ∫ ½ ν D:D, and what a penalty of ∇·u takes [pN nm/µs]
     double mobility_dissipation;  // ∫ γ g²
     double tension_power;         // ∫ λ |∇φ| P:∇u: the tension's, 0 if the membrane does not stretch anywhere
     double transport_power;  // ∫ ∂E/∂c (∂c/∂t + u·∇c): what molecules that move along the membrane add to E

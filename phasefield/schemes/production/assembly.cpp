@@ -43,8 +43,9 @@ EquationPattern::EquationPattern(const Parameters& p, const LayerEnergy& energy)
     PointPast past;
     past.normal = past.molecules_normal = {0.6, 0.8};
     past.thickness = {p.phase_field.epsilon, 0.01, 0.02};
-    const auto rows =
-        point_equations(fields_from<FeatureDual>(values), 3.0, past, {0.3, 0.2}, StepNumbers(p, {}, 1.0), energy);
+    StepNumbers step(p, {}, 1.0);
+    step.move_at(1.0);  // what fades with the membrane's speed is there
+    const auto rows = point_equations(fields_from<FeatureDual>(values), 3.0, past, {0.3, 0.2}, step, energy);
     for (unsigned int row = 0; row < n_features; ++row)
         for (unsigned int column = 0; column < n_features; ++column)
             if (feature(rows[row / 3], row % 3).partial[column] != 0) entries.push_back({row, column});

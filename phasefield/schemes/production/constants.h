@@ -31,6 +31,8 @@ inline constexpr Constant constants[] = {
     {"alignment_floor", 1e-4, "(1 − φ²)²", "the same for λ and q"},
     {"layer_pressure_alignment", 0.03, "1/ν", "keeps q constant along the normal"},
     {"pressure_leak", 1.2e-5, "1/(ν ε)", "∇·u per q: decides between p and δ q"},
+    {"divergence_penalty", 4, "ν V over the membrane's speed", "of ∇·u, of which pressures leave some within cells"},
+    {"most_penalty", 30, "ν", "the same where the membrane is at rest"},
     {"far_part", 1e-7, "M", "with which ψ becomes the distance far from the layer"},
     {"least_normal_diffusivity", 3.15e-4, "V R (R/ε)³", "of c along the normal: 6.4e4 nm²/µs at ε = 1.2 nm"},
     {"fast_membrane", 12, "V", "below it that fades with the membrane's speed"},

@@ -52,7 +52,7 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
                                            sheet_curvature(psi.r[q], r, epsilon).scaled, epsilon);
             const auto& elastic = state.elastic;
             const double nu = layer_viscosity(layer.phi, step.fluid, step.weight, numerics.viscosity_mean);
-            const double hoop = ur.value[q] / r, shear = ur.z[q] + uz.r[q];
+            const double hoop = ur.value[q] / r, shear = ur.z[q] + uz.r[q], divergence = ur.r[q] + hoop + uz.z[q];
             const double stretching =
                 surface_divergence(sheet.r / length, sheet.z / length, ur.r[q], hoop, uz.z[q], shear);
             integrals.area += w * layer.delta;
@@ -61,12 +61,13 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
             const auto weight = energy_weight(layer, psi.value[q], epsilon);
             diagnostics.bending_energy += w * energy_per_volume({b.value[q], b.r[q], b.z[q]}, distance_here, elastic,
                                                                 weight.value, epsilon, energy);
-            diagnostics.viscous_dissipation +=
-                w * nu * (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) + shear * shear);
+            diagnostics.viscous_dissipation += w * nu *
+                                               (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) +
+                                                shear * shear + step.divergence_penalty * divergence * divergence);
             if (step.fluid.dynamics == Dynamics::geometric)
                 diagnostics.mobility_dissipation += w * step.fluid.normal_mobility * g.value[q] * g.value[q] * density;
-            diagnostics.tension_power += w * (density * lambda.value[q] * stretching -
-                                              layer.delta * layer_pressure.value[q] * (ur.r[q] + hoop + uz.z[q]));
+            diagnostics.tension_power +=
+                w * (density * lambda.value[q] * stretching - layer.delta * layer_pressure.value[q] * divergence);
             // δ(E + E_c)/δc where the energy is coupled.
             const double potential = energy.coupled ? mu.value[q] : state.by_concentration;
             if (energy.coupled) {

@@ -16,7 +16,10 @@ namespace endoflow::phasefield::production {
 /// layer has reached after a step of ε, some pN would remain. The force's work is nobody's loss: where layers meet and
 /// ψ is no distance it would pump, so it fades there. The pressure in the layer is p + δ q, q constant along the normal
 /// the multiplier of ∫δ ∇·u across the layer: p alone, continuous and quadratic, cannot follow δ on cells as wide as
-/// the layer, and the rest would drive a spurious flow.
+/// the layer, and the rest would drive a spurious flow. So does what the space of p leaves of a pressure within cells,
+/// for ∇·u vanishes only against p's functions. A penalty of ∇·u, zero for the solution, holds that back (Olshanskii
+/// and Reusken, Math. Comp. 73, 1699 (2004)); but what is left to the velocity on coarse cells then is stiffer, so the
+/// penalty goes with the pressures over the flow, which is the membrane's speed.
 template <class Number>
 void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const BendingForces<Number>& force, double r,
               const PointPast& past, const GradientChange& change, const StepNumbers& step, Fields<Number>& row) {
@@ -29,7 +32,8 @@ void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Ben
         evenness(change, p.epsilon) * force_diffusivity(p) * (past.normal.r * G.r + past.normal.z * G.z);
     const Number nu = layer_viscosity(p.layer.phi, step.fluid, step.weight, step.numerics.viscosity_mean);
     const Number hoop = ur.value / r, divergence = ur.r + hoop + uz.z;
-    const Number isotropic = x[pressure].value + p.layer.delta * x[pressure_layer].value;
+    const Number isotropic =
+        x[pressure].value + p.layer.delta * x[pressure_layer].value - step.divergence_penalty * nu * divergence;
     const Number stretch = p.density * x[tension].value;
     const Number shear = nu * (ur.z + uz.r) - stretch * p.normal_r * p.normal_z;
     row[velocity_r] = {

@@ -40,6 +40,7 @@ SchemeRates scheme_rates(const Parameters& p) {
     rates.tension_leak = factors.tension_leak * fluidity;
     rates.layer_pressure_alignment = constant("layer_pressure_alignment") * fluidity;
     rates.pressure_leak = constant("pressure_leak") * fluidity / p.phase_field.epsilon;
+    rates.divergence_penalty = constant("divergence_penalty") * speed;
     return rates;
 }
 

@@ -19,6 +19,7 @@ struct SchemeRates {
     double tension_leak = 0;              // of λ and q [nm²/(pN µs)]
     double layer_pressure_alignment = 0;  // of q [nm²/(pN µs)]
     double pressure_leak = 0;             // ∇·u per q [nm/(pN µs)]
+    double divergence_penalty = 0;        // of ∇·u over ν, times the membrane's speed [nm/µs]
 };
 
 /// Scales: the box's radius R, of a vesicle its longer semi-axis, the membrane's speed V = R/natural_time, the smaller

@@ -20,6 +20,7 @@ namespace endoflow::phasefield::production {
 
 inline constexpr double relaxation_per_speed = constant("relaxation_per_speed");
 inline constexpr double slowest_alignment = constant("slowest_alignment");
+inline constexpr double most_penalty = constant("most_penalty");
 
 /// Numbers of one step.
 struct StepNumbers {
@@ -42,6 +43,7 @@ struct StepNumbers {
         speed = membrane_speed;
         profile_relaxation = std::min(rates.profile_relaxation, relaxation_per_speed * speed);
         molecules_alignment = std::clamp(speed / rates.fast_membrane, slowest_alignment, 1.0);
+        divergence_penalty = speed > 0 ? std::min(most_penalty, rates.divergence_penalty / speed) : most_penalty;
     }
 
     double rate;  // a₀ [1/µs]
@@ -56,6 +58,7 @@ struct StepNumbers {
     double speed = std::numeric_limits<double>::max();  // of the membrane [nm/µs]
     double profile_relaxation;                          // M of this step [nm/µs]
     double molecules_alignment = 1;                     // part of least_normal_diffusivity
+    double divergence_penalty = 0;                      // of ∇·u over ν
     bool inextensible;                                  // s is one but for what the tension leaves
     double molecules = 0;                               // ∫ c dA, predicted [nm²]: what the pool has lost
     std::shared_ptr<const CellThickness> thickness{};   // of the layer; none: uniform
