@@ -1,13 +1,18 @@
 // A layer whose thickness follows the membrane's curvature.
 
+#include <deal.II/grid/grid_generator.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "one_step.h"
 #include "phasefield/schemes/production/layer_thickness.h"
 #include "phasefield/schemes/production/point_equations.h"
+#include "run_steps.h"
+#include "small_case.h"
 
 using namespace endoflow;
 using namespace endoflow::phasefield;
@@ -97,6 +102,49 @@ TEST_CASE("the layer is thin where another part of the membrane is near", "[thic
     for (double r = 60; r > 0; r -= spacing) add(r, 80);
     const double expected = 2 / constant("room_needed");
     CHECK(ThicknessCurve(folded, 0, p).at(20, 84) == Approx(expected).epsilon(0.02));  // (1.2/ε)⁻⁸/8 and spacing
+}
+
+TEST_CASE("two thicknesses differ by the largest relative difference in any cell", "[thickness]") {
+    dealii::Triangulation<2> mesh;
+    dealii::GridGenerator::hyper_cube(mesh, 0, 8);
+    mesh.refine_global(3);
+    ThicknessCurve plane;
+    for (double r = 0; r <= 8; r += 0.5) {
+        plane.r.push_back(r);
+        plane.z.push_back(4);
+        plane.epsilon.push_back(1.2);
+    }
+    ThicknessCurve changed = plane;
+    changed.epsilon[8] = 1.2 * 0.95;  // at r = 4, where cells have corners
+    const CellThickness before(plane, mesh), after(changed, mesh);
+    CHECK(after.difference(before, MPI_COMM_SELF) == Approx(0.05).epsilon(1e-12));
+    CHECK(before.difference(before, MPI_COMM_SELF) == 0);
+}
+
+TEST_CASE("the layer's thickness follows a membrane that moves, and stays where one rests", "[thickness][production]") {
+    Parameters p = small_case();
+    p.molecules.patch_radius = 10;  // bends more strongly
+    p.phase_field.production.thinning = 0.5;
+    const SchemeRates rates = scheme_rates(p);
+    CHECK(kept_change(rates, 0) == constant("kept_thickness"));
+    CHECK(kept_change(rates, 10 * rates.resting_membrane) == Approx(0.1 * constant("kept_thickness")));
+
+    ProductionScheme scheme(p, MPI_COMM_SELF);
+    MembraneCurve curve = scheme.start().contour.curve;
+    double time = 0, speed = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 6; ++i) {
+        const double tau = scheme.step(time, 1);
+        const ThicknessCurve foreseen(curve, tau, p);
+        const StepOutcome outcome = take_step(scheme, time, 1);
+        curve = outcome.contour.curve;
+        double largest = 0;
+        for (std::size_t k = 0; k < curve.size(); ++k)
+            largest = std::max(
+                largest,
+                std::abs(foreseen.at(curve.r[k], curve.z[k]) / scheme.thickness_at(curve.r[k], curve.z[k]) - 1));
+        CHECK(largest <= kept_change(rates, speed));
+        speed = outcome.diagnostics.motion_max / tau;
+    }
 }
 
 TEST_CASE("what flows along a layer that thins stays what it is", "[thickness]") {

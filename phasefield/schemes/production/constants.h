@@ -65,6 +65,8 @@ inline constexpr Constant constants[] = {
     {"room_needed", 6.5, "ε", "from the membrane to where its layer meets another one: 2e-7 of δ are left there"},
     {"thinning_slope", 0.1, "", "of the thickness along the membrane, at most"},
     {"thinning_window", 1, "phase_field.epsilon", "half the arc from which the membrane's curvature is taken"},
+    {"kept_thickness", 0.1, "", "relative change, anywhere, below which the last one of a resting membrane stays"},
+    {"resting_membrane", 0.1, "V", "beyond this speed changes count that are as many times smaller"},
     // Steps (production_scheme.cpp)
     {"highest_order", 3, "", "of BDF"},
     {"guess_points", 2, "", "times from which Newton's method and the normals start"},

@@ -1,5 +1,6 @@
 #include "phasefield/schemes/production/layer_thickness.h"
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
@@ -168,6 +169,15 @@ CellThickness::CellThickness(ThicknessCurve curve, const dealii::Triangulation<2
         if (cell->is_locally_owned())
             for (unsigned int v = 0; v < 4; ++v)
                 corners_[cell->active_cell_index()][v] = values(cell->vertex_dof_index(v, 0));
+}
+
+double CellThickness::difference(const CellThickness& other, MPI_Comm communicator) const {
+    double largest = 0;
+    for (std::size_t cell = 0; cell < corners_.size(); ++cell)
+        for (std::size_t v = 0; v < 4; ++v)
+            if (other.corners_[cell][v] > 0)
+                largest = std::max(largest, std::abs(corners_[cell][v] / other.corners_[cell][v] - 1));
+    return dealii::Utilities::MPI::max(largest, communicator);
 }
 
 PointThickness CellThickness::at(std::size_t active_cell, const CellBox& box, double x, double y) const {

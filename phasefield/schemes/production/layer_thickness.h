@@ -47,12 +47,15 @@ class CellThickness {
     /// What it was made from.
     [[nodiscard]] const ThicknessCurve& curve() const { return curve_; }
 
+    /// The largest relative difference from another one on the same mesh, over all processes.
+    [[nodiscard]] double difference(const CellThickness& other, MPI_Comm communicator) const;
+
     /// At the point (x, y) of the unit cell.
     [[nodiscard]] PointThickness at(std::size_t active_cell, const CellBox& box, double x, double y) const;
 
   private:
     ThicknessCurve curve_;
-    std::vector<std::array<double, 4>> corners_;
+    std::vector<std::array<double, 4>> corners_;  // [nm]; of cells of other processes 0
 };
 
 /// The layer's thickness on a mesh; nothing for an empty curve: uniform.

@@ -118,7 +118,11 @@ void ProductionScheme::restore_molecules() {
 
 void ProductionScheme::foresee_thickness(double tau) {
     if (parameters_.phase_field.production.thinning == 0) return;
-    numbers_.thickness = thickness_on(*mesh_, ThicknessCurve(membrane_, tau, parameters_));
+    auto foreseen = thickness_on(*mesh_, ThicknessCurve(membrane_, tau, parameters_));
+    if (foreseen && numbers_.thickness && since_start_ > 0 &&
+        foreseen->difference(*numbers_.thickness, mesh_->get_communicator()) < kept_change(numbers_.rates, speed_))
+        return;
+    numbers_.thickness = std::move(foreseen);
     restore_molecules();
 }
 
