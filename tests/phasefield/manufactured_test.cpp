@@ -66,7 +66,7 @@ struct KnownStep {
           numbers(step_numbers(parameters, 2000, 1000)),
           past{known()},
           history(one.space, numbers, past, {-2000}, {1}, past.front()) {
-        history.manufactured = [this](double r, double z) { return solution(r, z, pressures); };
+        history.manufactured = [pressure_factor](double r, double z) { return solution(r, z, pressure_factor); };
     }
 
     /// Interpolated.

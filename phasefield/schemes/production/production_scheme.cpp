@@ -119,8 +119,9 @@ void ProductionScheme::restore_molecules() {
 void ProductionScheme::foresee_thickness(double tau) {
     if (parameters_.phase_field.production.thinning == 0) return;
     auto foreseen = thickness_on(*mesh_, ThicknessCurve(membrane_, tau, parameters_));
-    if (foreseen && numbers_.thickness && since_start_ > 0 &&
-        foreseen->difference(*numbers_.thickness, mesh_->get_communicator()) < kept_change(numbers_.rates, speed_))
+    if (foreseen && numbers_.thickness &&
+        foreseen->difference(*numbers_.thickness, mesh_->get_communicator()) <
+            kept_change(numbers_.rates, numbers_.speed))
         return;
     numbers_.thickness = std::move(foreseen);
     restore_molecules();
@@ -186,10 +187,10 @@ Vector ProductionScheme::polynomial(double time, std::size_t count) const {
 
 StepOutcome ProductionScheme::attempt(double time, double tau) {
     const double end = time + tau;
+    if (since_start_ > 0) numbers_.move_at(speed_);
     foresee_thickness(tau);
     const auto bdf = bdf_coefficients(end, times_, order());
     numbers_.rate = bdf.rate;
-    if (since_start_ > 0) numbers_.move_at(speed_);
     const std::size_t known = std::min(order() + 1, times_.size());
     const Vector predicted = polynomial(end, known);
     if (numbers_.loads.pole_force != 0)
