@@ -138,10 +138,10 @@ TEST_CASE("the layer's thickness follows a membrane that moves, and stays where 
         const StepOutcome outcome = take_step(scheme, time, 1);
         curve = outcome.contour.curve;
         double largest = 0;
-        for (std::size_t k = 0; k < curve.size(); ++k)
+        for (std::size_t j = 0; j < curve.size(); ++j)
             largest = std::max(
                 largest,
-                std::abs(foreseen.at(curve.r[k], curve.z[k]) / scheme.thickness_at(curve.r[k], curve.z[k]) - 1));
+                std::abs(foreseen.at(curve.r[j], curve.z[j]) / scheme.thickness_at(curve.r[j], curve.z[j]) - 1));
         CHECK(largest <= kept_change(rates, speed));
         speed = outcome.diagnostics.motion_max / tau;
     }
