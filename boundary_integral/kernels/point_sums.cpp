@@ -1,6 +1,6 @@
 #include "boundary_integral/kernels/point_sums.h"
 
-#include "boundary_integral/kernels/vector_clones.h"
+#include "shared/numerics/vector_clones.h"
 
 namespace endoflow::boundary_integral {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "boundary_integral/kernels/vector_clones.h"
+#include "shared/numerics/vector_clones.h"
 
 namespace endoflow::boundary_integral {
 

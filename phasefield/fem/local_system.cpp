@@ -1,6 +1,8 @@
 #include "phasefield/fem/local_system.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 #include "phasefield/fem/small_product.h"
 
@@ -43,11 +45,28 @@ void LocalSystem::start(const CellBox& box, const dealii::Vector<double>& iterat
 
 const std::vector<double>& LocalSystem::shapes(unsigned int component, Op op) const {
     const ScalarBasis& basis = *bases_[component];
-    return op == Op::value ? basis.value : op == Op::dr ? basis.dx : basis.dy;
+    switch (op) {
+        case Op::value:
+            return basis.value;
+        case Op::dr:
+            return basis.dx;
+        case Op::dz:
+            return basis.dy;
+        case Op::drr:
+            return basis.dxx;
+        case Op::drz:
+            return basis.dxy;
+        case Op::dzz:
+            return basis.dyy;
+    }
+    std::abort();
 }
 
 double LocalSystem::scale(Op op) const {
-    return op == Op::value ? 1.0 : op == Op::dr ? 1 / box_.hr : 1 / box_.hz;
+    constexpr std::array<std::array<int, 2>, all_operations.size()> orders{
+        {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};  // of the derivatives in r and z
+    const auto [in_r, in_z] = orders[static_cast<unsigned int>(op)];
+    return 1 / (std::pow(box_.hr, in_r) * std::pow(box_.hz, in_z));
 }
 
 const Coefficients& LocalSystem::field(unsigned int component, Op op) const {
@@ -64,17 +83,16 @@ void LocalSystem::residual(unsigned int test, Op test_op, const Coefficients& we
 }
 
 void LocalSystem::jacobian(unsigned int test, Op test_op, unsigned int trial, Op trial_op, const Coefficients& weight) {
-    std::array<const Coefficients*, 3> weights{};
+    Weights weights{};
     weights[static_cast<unsigned int>(trial_op)] = &weight;
     jacobian(test, test_op, trial, weights);
 }
 
-void LocalSystem::jacobian(unsigned int test, Op test_op, unsigned int trial,
-                           const std::array<const Coefficients*, 3>& weights) {
+void LocalSystem::jacobian(unsigned int test, Op test_op, unsigned int trial, const Weights& weights) {
     const std::size_t n_test = bases_[test]->n_dofs, n_trial = bases_[trial]->n_dofs, n_points = bases_[test]->n_points;
     used_[test * n_components_ + trial] = 1;
     columns_.assign(n_points * n_trial, 0);
-    for (const Op trial_op : {Op::value, Op::dr, Op::dz}) {
+    for (const Op trial_op : all_operations) {
         const Coefficients* weight = weights[static_cast<unsigned int>(trial_op)];
         if (weight == nullptr) continue;
         const auto& trial_shapes = shapes(trial, trial_op);

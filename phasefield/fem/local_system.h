@@ -13,8 +13,9 @@
 
 namespace endoflow::phasefield {
 
-/// A shape function or its derivative, as it enters a weak form.
-enum class Op : unsigned int { value = 0, dr = 1, dz = 2 };
+/// A shape function or its derivative, as it enters a weak form; second ones for trial functions alone.
+enum class Op : unsigned int { value = 0, dr = 1, dz = 2, drr = 3, drz = 4, dzz = 5 };
+inline constexpr std::array all_operations{Op::value, Op::dr, Op::dz, Op::drr, Op::drz, Op::dzz};
 
 /// One coefficient per quadrature point.
 using Coefficients = std::vector<double>;
@@ -25,7 +26,8 @@ using Coefficients = std::vector<double>;
 ///     residual(I, A, w):            R_I[i]    += Σ_q w_q A N_i(q)
 ///     jacobian(I, A, K, B, w):      J_IK[i,k] += Σ_q w_q A N_i(q) B N_k(q)
 ///     linear(I, A, K, B, w):        both, for a term linear in component K of the present iterate
-/// where I is the test function's component, A, B ∈ {N, ∂N/∂r, ∂N/∂z} and w_q contains the measure.
+/// where I is the test function's component, A ∈ {N, ∂N/∂r, ∂N/∂z}, B one of these or a second derivative, and w_q
+/// contains the measure.
 class LocalSystem {
   public:
     /// `twice`: the component whose second derivatives are evaluated, too.
@@ -36,8 +38,10 @@ class LocalSystem {
 
     void residual(unsigned int test, Op test_op, const Coefficients& weight);
     void jacobian(unsigned int test, Op test_op, unsigned int trial, Op trial_op, const Coefficients& weight);
-    /// The sum over all three B, their weights in the order of Op; nullptr where there is none.
-    void jacobian(unsigned int test, Op test_op, unsigned int trial, const std::array<const Coefficients*, 3>& weights);
+    /// Weights of all B in the order of Op; nullptr where there is none.
+    using Weights = std::array<const Coefficients*, all_operations.size()>;
+    /// The sum over them.
+    void jacobian(unsigned int test, Op test_op, unsigned int trial, const Weights& weights);
     void linear(unsigned int test, Op test_op, unsigned int trial, Op trial_op, const Coefficients& weight);
 
     /// The present iterate's component (first derivatives, of one component second ones).

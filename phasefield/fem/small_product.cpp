@@ -2,12 +2,7 @@
 
 #include <cstring>
 
-// One version for processors with AVX2, chosen when the program is loaded. Sanitizers do not go with that.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define ENDOFLOW_PROCESSOR_VERSIONS __attribute__((target_clones("default", "arch=x86-64-v3")))
-#else
-#define ENDOFLOW_PROCESSOR_VERSIONS
-#endif
+#include "shared/numerics/vector_clones.h"
 
 namespace endoflow::phasefield {
 
@@ -37,7 +32,7 @@ template <std::size_t count>
 
 }  // namespace
 
-ENDOFLOW_PROCESSOR_VERSIONS
+ENDOFLOW_VECTOR_CLONES
 void add_transposed_product(const double* a, const double* b, std::size_t n, std::size_t n_rows, std::size_t n_columns,
                             double* c) {
     constexpr std::size_t wide = 4, narrow = 2;  // a bicubic element has 16 shape functions, a biquadratic one 9

@@ -16,15 +16,19 @@ constexpr double linearly_dependent = 1e-8;  // part of a change that is left be
 
 }  // namespace
 
-AndersonMixing::AndersonMixing(const Space& space, const Vector& first, const std::vector<double>& least) {
+AndersonMixing::AndersonMixing(const Space& space, const Vector& first, const std::vector<double>& least,
+                               const Vector& counted) {
     weight_.reinit(first, false);
     const auto fields = dealii::DoFTools::locally_owned_dofs_per_component(space.dofs);
     for (std::size_t field = 0; field < fields.size(); ++field) {
-        double square = 0, smallest = static_cast<double>(fields[field].n_elements()) * least[field] * least[field];
-        for (const auto i : fields[field]) square += first(i) * first(i);
-        sum_over_processes({&square, &smallest}, first.get_mpi_communicator());
-        square = std::max(square, smallest);
-        for (const auto i : fields[field]) weight_(i) = square > 0 ? 1 / square : 0;
+        double square = 0, unknowns = 0;
+        for (const auto i : fields[field]) {
+            square += counted(i) * first(i) * first(i);
+            unknowns += counted(i);
+        }
+        sum_over_processes({&square, &unknowns}, first.get_mpi_communicator());
+        square = std::max(square, unknowns * least[field] * least[field]);
+        for (const auto i : fields[field]) weight_(i) = square > 0 ? counted(i) / square : 0;
     }
 }
 

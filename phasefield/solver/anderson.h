@@ -11,9 +11,9 @@ namespace endoflow::phasefield {
 /// by the factors of an earlier step this finds the few directions in which those factors no longer serve.
 class AndersonMixing {
   public:
-    /// The norm of an increment is that of its fields' l² norms, each relative to that of `first`, the first increment,
-    /// or, where that is round-off, to `least[field]` per unknown.
-    AndersonMixing(const Space& space, const Vector& first, const std::vector<double>& least);
+    /// The norm of an increment is that of its fields' l² norms, in which unknown i has the weight counted(i), each
+    /// relative to that of `first`, the first increment, or, where that is round-off, to `least[field]` per unknown.
+    AndersonMixing(const Space& space, const Vector& first, const std::vector<double>& least, const Vector& counted);
 
     /// The norm above: at most √(number of fields) for `first` itself. Collective.
     [[nodiscard]] double norm(const Vector& increment) const;

@@ -1,5 +1,6 @@
 // The equations of the production scheme at a point: forces from any energy, the exact Jacobian.
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -103,21 +104,30 @@ PointPast some_past(const Parameters& p) {
 
 void check_jacobian(const Parameters& p, const LayerEnergy& energy, const StepNumbers& step) {
     const PointPast past = some_past(p);
-    const GradientChange change{0.3, -0.2};
-    const auto rows_at = [&](const auto& x) { return point_equations(x, point_radius, past, change, step, energy); };
+    // The change of ψ's gradient follows the fields.
+    constexpr std::size_t n_variables = n_features + 3;
+    using Variables = Dual<n_variables>;
+    const auto rows_at = [&](const auto& x, const auto& change) {
+        return point_equations(x, point_radius, past, change, step, energy);
+    };
     const auto x = some_point();
-    Fields<Dual<n_features>> seeded;
+    const std::array<double, 3> second{0.3, -0.2, 0.07};
+    Fields<Variables> seeded;
     for (std::size_t k = 0; k < n_features; ++k) {
         auto xk = x;
-        part(seeded[k / 3], k % 3) = Dual<n_features>::variable(part(xk[k / 3], k % 3), k);
+        part(seeded[k / 3], k % 3) = Variables::variable(part(xk[k / 3], k % 3), k);
     }
-    auto rows = rows_at(seeded);
+    const auto variable = [&second](std::size_t k) { return Variables::variable(second[k], n_features + k); };
+    auto rows = rows_at(seeded, GradientChange<Variables>{variable(0), variable(1), variable(2)});
     constexpr double h = 1e-5;
-    for (std::size_t k = 0; k < n_features; ++k) {
-        auto up = x, down = x;
-        part(up[k / 3], k % 3) += h;
-        part(down[k / 3], k % 3) -= h;
-        auto above = rows_at(up), below = rows_at(down);
+    for (std::size_t k = 0; k < n_variables; ++k) {
+        const auto moved = [&](double by) {
+            auto there = x;
+            auto change = second;
+            (k < n_features ? part(there[k / 3], k % 3) : change[k - n_features]) += by;
+            return rows_at(there, GradientChange<double>{change[0], change[1], change[2]});
+        };
+        auto above = moved(h), below = moved(-h);
         for (std::size_t i = 0; i < n_features; ++i) {
             const double difference = (part(above[i / 3], i % 3) - part(below[i / 3], i % 3)) / (2 * h);
             CAPTURE(i, k);
@@ -289,7 +299,7 @@ TEST_CASE("a thickness that is not constant along the normal acts across the mem
     const StepNumbers step = numbers(p);
     const PointPast past = some_past(p);
     const auto x = some_point();
-    const GradientChange change{0, 0, 0.07};
+    const GradientChange<double> change{0, 0, 0.07};
     Fields<double> rows;
     const auto geometry = point_geometry(x[distance], past.thickness, step.weight);
     const double force = add_bending(x, geometry, energy, point_radius, past, change, rows).of_thickness;

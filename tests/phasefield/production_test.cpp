@@ -88,7 +88,7 @@ TEST_CASE("what keeps G constant along the normal exerts no net force", "[produc
     past.thickness.value = p.phase_field.epsilon;
     past.normal = past.molecules_normal = {0.6, -0.8};
     const double chi_r = 2e-5, chi_z = 3e-5;  // so small that the force does not fade: by 4e-8 of itself
-    const GradientChange change{0, past.normal.r * chi_r + past.normal.z * chi_z};
+    const GradientChange<double> change{0, past.normal.r * chi_r + past.normal.z * chi_z};
     const auto rows = point_equations(x, 7.0, past, change, numbers_of(p), LayerEnergy(p));
     const auto& own = rows[normal_force];
     const double aligned = own.r * chi_r + own.z * chi_z, force = own.value * x[distance].z + aligned;

@@ -4,17 +4,20 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
+#include <array>
 #include <type_traits>
 
 #include "phasefield/schemes/production/external_loads.h"
+#include "shared/numerics/vector_clones.h"
 
 namespace endoflow::phasefield::production {
 
 namespace {
 
-constexpr std::size_t n_features = 3 * n_fields;
+constexpr std::size_t n_features = 3 * n_fields;     // rows: what test functions multiply
+constexpr std::size_t n_variables = n_features + 3;  // columns: besides, ψ's second derivatives
 constexpr Op operations[3] = {Op::value, Op::dr, Op::dz};
-using FeatureDual = Dual<n_features>;
+using FeatureDual = Dual<n_variables>;
 
 template <class Number>
 const Number& feature(const AtPoint<Number>& at, unsigned int operation) {
@@ -34,7 +37,31 @@ Fields<Number> fields_from(const PointValues& values) {
     return x;
 }
 
+/// From ψ's second derivatives rr, rz, zz, the last variables, where the normal is n.
+template <class Number>
+GradientChange<Number> change_from(const std::array<double, 3>& second, const Direction& n, const Number& around) {
+    std::array<Number, 3> x;
+    for (unsigned int o = 0; o < 3; ++o) {
+        x[o] = second[o];
+        if constexpr (std::is_same_v<Number, FeatureDual>) x[o].partial[n_features + o] = 1;
+    }
+    return gradient_change(n, x[0], x[1], x[2], around);
+}
+
 }  // namespace
+
+// The equations with their derivatives in all variables are most of an assembly, and vector arithmetic.
+ENDOFLOW_VECTOR_CLONES [[gnu::flatten]] Fields<FeatureDual> equations_at(const Fields<FeatureDual>& x, double r,
+                                                                         const PointPast& past,
+                                                                         const GradientChange<FeatureDual>& change,
+                                                                         const StepNumbers& step,
+                                                                         const LayerEnergy& energy) {
+    return point_equations(x, r, past, change, step, energy);
+}
+Fields<double> equations_at(const Fields<double>& x, double r, const PointPast& past,
+                            const GradientChange<double>& change, const StepNumbers& step, const LayerEnergy& energy) {
+    return point_equations(x, r, past, change, step, energy);
+}
 
 EquationPattern::EquationPattern(const Parameters& p, const LayerEnergy& energy) {
     // Values without special meaning: everything that can depend on something does.
@@ -45,9 +72,11 @@ EquationPattern::EquationPattern(const Parameters& p, const LayerEnergy& energy)
     past.thickness = {p.phase_field.epsilon, 0.01, 0.02};
     StepNumbers step(p, {}, 1.0);
     step.move_at(1.0);  // what fades with the membrane's speed is there
-    const auto rows = point_equations(fields_from<FeatureDual>(values), 3.0, past, {0.3, 0.2}, step, energy);
+    const auto x = fields_from<FeatureDual>(values);
+    const auto change = change_from({0.3, 0.2, 0.1}, past.normal, x[distance].r);
+    const auto rows = point_equations(x, 3.0, past, change, step, energy);
     for (unsigned int row = 0; row < n_features; ++row)
-        for (unsigned int column = 0; column < n_features; ++column)
+        for (unsigned int column = 0; column < n_variables; ++column)
             if (feature(rows[row / 3], row % 3).partial[column] != 0) entries.push_back({row, column});
 }
 
@@ -84,11 +113,13 @@ class CellEquations {
             PointValues values;
             for (unsigned int f = 0; f < n_fields; ++f)
                 values[f] = {local.field(f).value[q], local.field(f).r[q], local.field(f).z[q]};
-            const Direction& n = past[q].normal;
-            const GradientChange change = gradient_change(n, psi.rr[q], psi.rz[q], psi.zz[q], psi.r[q] / r);
-            auto rows = point_equations(fields_from<Number>(values), r, past[q], change, *step_, *energy_);
+            const auto x = fields_from<Number>(values);
+            const auto change =
+                change_from<Number>({psi.rr[q], psi.rz[q], psi.zz[q]}, past[q].normal, x[distance].r / r);
+            auto rows = equations_at(x, r, past[q], change, *step_, *energy_);
             if (manufactured)
-                take_off(manufactured(r, box.z0 + box.hz * quadrature.point(q)[1]), r, past[q], change, rows);
+                take_off(manufactured(r, box.z0 + box.hz * quadrature.point(q)[1]), r, past[q],
+                         {value_of(change.r), value_of(change.z), value_of(change.laplacian)}, rows);
             visit(q, quadrature.weight(q) * box.hr * box.hz * r, rows);
         }
     }
@@ -98,7 +129,7 @@ class CellEquations {
 
   private:
     template <class Number>
-    void take_off(const PointValues& solution, double r, const PointPast& past, const GradientChange& change,
+    void take_off(const PointValues& solution, double r, const PointPast& past, const GradientChange<double>& change,
                   Fields<Number>& rows) const {
         const auto own = point_equations(fields_from<double>(solution), r, past, change, *step_, *energy_);
         for (unsigned int f = 0; f < n_fields; ++f) {
@@ -142,11 +173,12 @@ void assemble_cells(const Space& space, const EquationPattern& pattern, CellEqua
         if constexpr (with_jacobian) {
             const auto& entries = pattern.entries;  // all derivatives with respect to one field follow each other
             for (std::size_t k = 0; k < entries.size();) {
-                const unsigned int row = entries[k].row, trial = entries[k].column / 3;
-                std::array<const Coefficients*, 3> weights{};
-                for (; k < entries.size() && entries[k].row == row && entries[k].column / 3 == trial; ++k)
-                    weights[entries[k].column % 3] = &jacobian[k];
-                local.jacobian(row / 3, operations[row % 3], trial, weights);
+                const unsigned int row = entries[k].row, group = entries[k].column / 3;
+                const bool twice = group == n_fields;
+                LocalSystem::Weights weights{};
+                for (; k < entries.size() && entries[k].row == row && entries[k].column / 3 == group; ++k)
+                    weights[entries[k].column % 3 + (twice ? 3 : 0)] = &jacobian[k];
+                local.jacobian(row / 3, operations[row % 3], twice ? unsigned{distance} : group, weights);
             }
             local.write_jacobian(cell_matrix);
         }

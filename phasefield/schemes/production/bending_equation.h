@@ -47,7 +47,8 @@ struct BendingForces {
 /// in cells, is not constant along the normal E_ε ∂ε/∂ψ ∇ψ is left.
 template <class Number>
 BendingForces<Number> add_bending(const Fields<Number>& x, const PointGeometry<Number>& p, const LayerEnergy& energy,
-                                  double r, const PointPast& past, const GradientChange& change, Fields<Number>& row) {
+                                  double r, const PointPast& past, const GradientChange<Number>& change,
+                                  Fields<Number>& row) {
     const auto &psi = x[distance], &b = x[moment];
     const auto& c = x[molecule_density];
     const Number along = c.z * p.normal_r - c.r * p.normal_z;

@@ -88,6 +88,7 @@ inline constexpr Constant constants[] = {
     {"most_factorisations", 4, "", "in one step"},
     {"fast_contraction", 0.5, "", "of the changes by new factors: below it the next change can be foreseen"},
     {"largest_rest", 0.01, "", "of the first increment, in all fields: b follows ψ's second derivatives"},
+    {"hardly_present", 3e-4, "", "of (1 − φ²)² at the membrane: increments there count half"},
     {"round_off", 1e-8, "a field's size", "first increments below it count as that large: at rest they are noise"},
     {"most_divergence", 10, "", "of a change beyond the first one, where Newton's method gives up"},
     // The mesh (refinement.cpp, mesh_following.cpp)

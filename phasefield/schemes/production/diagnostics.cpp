@@ -2,6 +2,7 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,15 @@
 #include "phasefield/fem/component_field.h"
 #include "phasefield/fem/reduction.h"
 #include "phasefield/schemes/production/assembly.h"
+#include "phasefield/schemes/production/constants.h"
 
 namespace endoflow::phasefield::production {
+
+namespace {
+
+constexpr double hardly_present = constant("hardly_present");
+
+}  // namespace
 
 SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy, const StepNumbers& step,
                                   const Vector& before, const Vector& predicted, const Vector& rate,
@@ -156,6 +164,31 @@ double layer_increment(const Space& space, const StepNumbers& step, const Vector
         }
     }
     return dealii::Utilities::MPI::max(largest, space.dofs.get_communicator());
+}
+
+Vector presence(const Space& space, const StepNumbers& step, const Vector& solution) {
+    Vector out = space.vector();
+    std::vector<dealii::types::global_dof_index> indices(space.element.n_dofs_per_cell());
+    for (unsigned int field = 0; field < n_fields; ++field) {
+        const dealii::Quadrature<2> nodes(dealii::FE_Q<2>(space.degrees[field]).get_unit_support_points());
+        ComponentField psi(space, distance, nodes);
+        for (const auto& cell : space.dofs.active_cell_iterators()) {
+            if (!cell->is_locally_owned()) continue;
+            const CellBox box = cell_box(cell);
+            const auto& there = psi.on(cell, box, solution);
+            cell->get_dof_indices(indices);
+            for (unsigned int i = 0; i < nodes.size(); ++i) {
+                const auto unknown = indices[space.local[field][i]];
+                if (!space.owned.is_element(unknown)) continue;
+                const auto& x = nodes.point(i);
+                const double epsilon = step.thickness_at(cell->active_cell_index(), box, x[0], x[1]).value;
+                const double well = layer_profile(there.value[i], epsilon).squared_well;
+                out(unknown) =
+                    lives_in_fluid(field) ? 1 : well * well / (well * well + hardly_present * hardly_present);
+            }
+        }
+    }
+    return out;
 }
 
 }  // namespace endoflow::phasefield::production

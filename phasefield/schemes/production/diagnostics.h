@@ -28,4 +28,8 @@ std::vector<double> molecules_of(const Space& space, const StepNumbers& step, co
 /// max |increment of ψ| on |φ| < 0.9 in units of ε, times phase_field.epsilon [nm]; collective.
 double layer_increment(const Space& space, const StepNumbers& step, const Vector& increment, const Vector& solution);
 
+/// How much increments of each unknown count: 1, but next to nothing for what lives on the membrane where there is next
+/// to nothing of it, w = (1 − φ²)² small, by w²/(w² + hardly_present²). On the ridges between layers these fields jump.
+Vector presence(const Space& space, const StepNumbers& step, const Vector& solution);
+
 }  // namespace endoflow::phasefield::production

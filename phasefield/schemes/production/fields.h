@@ -28,6 +28,11 @@ enum Field : unsigned int {
     n_fields,            // how many there are
 };
 
+/// The others live on the membrane.
+constexpr bool lives_in_fluid(unsigned int field) {
+    return field == velocity_r || field == velocity_z || field == pressure;
+}
+
 /// One field and its derivatives at one point; also one row of a weak form: the factors of the test function and of its
 /// derivatives.
 template <class Number>

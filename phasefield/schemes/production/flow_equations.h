@@ -22,7 +22,8 @@ namespace endoflow::phasefield::production {
 /// penalty goes with the pressures over the flow, which is the membrane's speed.
 template <class Number>
 void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const BendingForces<Number>& force, double r,
-              const PointPast& past, const GradientChange& change, const StepNumbers& step, Fields<Number>& row) {
+              const PointPast& past, const GradientChange<Number>& change, const StepNumbers& step,
+              Fields<Number>& row) {
     const auto &ur = x[velocity_r], &uz = x[velocity_z], &psi = x[distance], &c = x[molecule_density];
     const auto& G = x[normal_force];
     const Number g = p.density * (G.value - step.loads.pressure), molecular = step.weight.cut * p.density * force.along;

@@ -76,7 +76,7 @@ class PastFields {
             const double around = predicted_.r[q] / (box.r0 + box.hr * x[0]);
             points[q].bulk = supply[q];
             points[q].normal = normal(predicted_.r[q], predicted_.z[q], last_normal_below);
-            const GradientChange change =
+            const auto change =
                 gradient_change(points[q].normal, predicted_.rr[q], predicted_.rz[q], predicted_.zz[q], around);
             points[q].arc = sheet_arc(predicted_.value[q], around, change.laplacian);
             points[q].metric = sheet_metric(predicted_.value[q], around, change.laplacian);

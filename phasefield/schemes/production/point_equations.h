@@ -25,8 +25,9 @@ namespace endoflow::phasefield::production {
 
 /// All rows at one point at radius r [nm].
 template <class Number>
-Fields<Number> point_equations(const Fields<Number>& x, double r, const PointPast& past, const GradientChange& change,
-                               const StepNumbers& step, const LayerEnergy& energy) {
+Fields<Number> point_equations(const Fields<Number>& x, double r, const PointPast& past,
+                               const GradientChange<Number>& change, const StepNumbers& step,
+                               const LayerEnergy& energy) {
     const PointGeometry<Number> p = point_geometry(x[distance], past.thickness, step.weight);
     Fields<Number> row;
     const BendingForces<Number> force = add_bending(x, p, energy, r, past, change, row);

@@ -36,14 +36,17 @@ struct PointPast {
 };
 
 /// What the equations need of ψ's second derivatives [1/nm]: n·∇∇ψ with the predicted n, how ∇ψ changes along the
-/// normal, 0 where ψ is a distance, and Δψ. The Jacobian holds both fixed.
+/// normal, 0 where ψ is a distance, and Δψ.
+template <class Number>
 struct GradientChange {
-    double r = 0, z = 0;
-    double laplacian = 0;
+    Number r{}, z{};
+    Number laplacian{};
 };
 
 /// From ψ's second derivatives; `around` is ψ_r/r.
-inline GradientChange gradient_change(const Direction& n, double rr, double rz, double zz, double around) {
+template <class Number>
+GradientChange<Number> gradient_change(const Direction& n, const Number& rr, const Number& rz, const Number& zz,
+                                       const Number& around) {
     return {n.r * rr + n.z * rz, n.r * rz + n.z * zz, rr + zz + around};
 }
 
@@ -61,9 +64,10 @@ double sheet_metric(double psi, double around, double laplacian);
 inline constexpr double uneven_fade = constant("uneven_fade");
 
 /// 1 where ψ is a distance, little on the ridges where layers meet and normals turn round within a cell.
-inline double evenness(const GradientChange& change, double epsilon) {
-    const double kink = uneven_fade * epsilon * std::hypot(change.r, change.z);
-    return 1 / (1 + kink * kink);
+template <class Number>
+Number evenness(const GradientChange<Number>& change, double epsilon) {
+    const double bound = uneven_fade * epsilon;
+    return 1.0 / (1.0 + bound * bound * (change.r * change.r + change.z * change.z));
 }
 
 inline constexpr double surface_floor = constant("surface_floor");

@@ -83,7 +83,7 @@ StepSolver::Ending StepSolver::iterate(const Problem& problem, Vector& solution,
         changes_ += text;
         if (iteration == 0) first = std::max(change, wanted_);
         if (!std::isfinite(change) || change > most_divergence * first) return Ending::diverged;
-        if (!mixing) mixing.emplace(*problem.space, step, least_);
+        if (!mixing) mixing.emplace(*problem.space, step, least_, presence(*problem.space, *problem.numbers, solution));
         mixing->advance(solution, step);
         const double contraction = change / last;
         const bool foreseen = newton != nullptr && iteration > 0 && contraction < fast_contraction;
