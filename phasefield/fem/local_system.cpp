@@ -1,8 +1,6 @@
 #include "phasefield/fem/local_system.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 
 #include "phasefield/fem/small_product.h"
 
@@ -43,30 +41,32 @@ void LocalSystem::start(const CellBox& box, const dealii::Vector<double>& iterat
     std::fill(used_.begin(), used_.end(), char{0});
 }
 
+namespace {
+
+/// In the order of Op: the shape functions, and how often they are differentiated.
+struct Differentiated {
+    std::vector<double> ScalarBasis::*shapes;
+    int in_r, in_z;
+};
+constexpr std::array<Differentiated, all_operations.size()> differentiated{{{&ScalarBasis::value, 0, 0},
+                                                                            {&ScalarBasis::dx, 1, 0},
+                                                                            {&ScalarBasis::dy, 0, 1},
+                                                                            {&ScalarBasis::dxx, 2, 0},
+                                                                            {&ScalarBasis::dxy, 1, 1},
+                                                                            {&ScalarBasis::dyy, 0, 2}}};
+
+}  // namespace
+
 const std::vector<double>& LocalSystem::shapes(unsigned int component, Op op) const {
-    const ScalarBasis& basis = *bases_[component];
-    switch (op) {
-        case Op::value:
-            return basis.value;
-        case Op::dr:
-            return basis.dx;
-        case Op::dz:
-            return basis.dy;
-        case Op::drr:
-            return basis.dxx;
-        case Op::drz:
-            return basis.dxy;
-        case Op::dzz:
-            return basis.dyy;
-    }
-    std::abort();
+    return (*bases_[component]).*differentiated[static_cast<unsigned int>(op)].shapes;
 }
 
 double LocalSystem::scale(Op op) const {
-    constexpr std::array<std::array<int, 2>, all_operations.size()> orders{
-        {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};  // of the derivatives in r and z
-    const auto [in_r, in_z] = orders[static_cast<unsigned int>(op)];
-    return 1 / (std::pow(box_.hr, in_r) * std::pow(box_.hz, in_z));
+    const Differentiated& in = differentiated[static_cast<unsigned int>(op)];
+    double extent = 1;
+    for (int k = 0; k < in.in_r; ++k) extent *= box_.hr;
+    for (int k = 0; k < in.in_z; ++k) extent *= box_.hz;
+    return 1 / extent;
 }
 
 const Coefficients& LocalSystem::field(unsigned int component, Op op) const {

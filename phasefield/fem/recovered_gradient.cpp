@@ -1,7 +1,5 @@
 #include "phasefield/fem/recovered_gradient.h"
 
-#include <deal.II/fe/fe_q.h>
-
 #include "phasefield/fem/same_cell.h"
 #include "phasefield/fem/scalar_basis.h"
 
@@ -9,8 +7,7 @@ namespace endoflow::phasefield {
 
 Vector recover_gradient(const Space& space, unsigned int component, const Vector& field, const Space& gradient_space) {
     const unsigned int degree = gradient_space.degrees[0];
-    const ScalarBasis basis(space.degrees[component],
-                            dealii::Quadrature<2>(dealii::FE_Q<2>(degree).get_unit_support_points()));
+    const ScalarBasis basis(space.degrees[component], nodes(degree));
     Vector gradient = gradient_space.vector(), count = gradient_space.vector();
     dealii::Vector<double> values(space.element.n_dofs_per_cell());
     std::vector<dealii::types::global_dof_index> indices(gradient_space.element.n_dofs_per_cell());

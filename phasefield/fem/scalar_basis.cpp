@@ -23,6 +23,10 @@ ScalarBasis::ScalarBasis(unsigned int degree_, const dealii::Quadrature<2>& quad
         }
 }
 
+dealii::Quadrature<2> nodes(unsigned int degree) {
+    return dealii::Quadrature<2>(dealii::FE_Q<2>(degree).get_unit_support_points());
+}
+
 namespace {
 
 /// out[q] = scale Σ_i shapes[q, i] coefficients[i] of `count` points: as many sums at a time, for each addition waits

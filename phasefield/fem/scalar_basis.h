@@ -20,6 +20,9 @@ struct ScalarBasis {
     std::vector<double> value, dx, dy, dxx, dxy, dyy;
 };
 
+/// The nodes of Q_k on the unit cell, in the order of its shape functions.
+dealii::Quadrature<2> nodes(unsigned int degree);
+
 /// The rectangle [r0, r0 + hr] × [z0, z0 + hz].
 struct CellBox {
     double r0, z0, hr, hz;

@@ -74,7 +74,7 @@ EquationPattern::EquationPattern(const Parameters& p, const LayerEnergy& energy)
     step.move_at(1.0);  // what fades with the membrane's speed is there
     const auto x = fields_from<FeatureDual>(values);
     const auto change = change_from({0.3, 0.2, 0.1}, past.normal, x[distance].r);
-    const auto rows = point_equations(x, 3.0, past, change, step, energy);
+    const auto rows = equations_at(x, 3.0, past, change, step, energy);
     for (unsigned int row = 0; row < n_features; ++row)
         for (unsigned int column = 0; column < n_variables; ++column)
             if (feature(rows[row / 3], row % 3).partial[column] != 0) entries.push_back({row, column});

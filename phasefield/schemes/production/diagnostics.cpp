@@ -2,7 +2,6 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_q.h>
 
 #include <algorithm>
 #include <cmath>
@@ -168,23 +167,24 @@ double layer_increment(const Space& space, const StepNumbers& step, const Vector
 
 Vector presence(const Space& space, const StepNumbers& step, const Vector& solution) {
     Vector out = space.vector();
+    out = 1;
     std::vector<dealii::types::global_dof_index> indices(space.element.n_dofs_per_cell());
     for (unsigned int field = 0; field < n_fields; ++field) {
-        const dealii::Quadrature<2> nodes(dealii::FE_Q<2>(space.degrees[field]).get_unit_support_points());
-        ComponentField psi(space, distance, nodes);
+        if (lives_in_fluid(field)) continue;
+        const auto points = nodes(space.degrees[field]);
+        ComponentField psi(space, distance, points);
         for (const auto& cell : space.dofs.active_cell_iterators()) {
             if (!cell->is_locally_owned()) continue;
             const CellBox box = cell_box(cell);
             const auto& there = psi.on(cell, box, solution);
             cell->get_dof_indices(indices);
-            for (unsigned int i = 0; i < nodes.size(); ++i) {
+            for (unsigned int i = 0; i < points.size(); ++i) {
                 const auto unknown = indices[space.local[field][i]];
                 if (!space.owned.is_element(unknown)) continue;
-                const auto& x = nodes.point(i);
+                const auto& x = points.point(i);
                 const double epsilon = step.thickness_at(cell->active_cell_index(), box, x[0], x[1]).value;
                 const double well = layer_profile(there.value[i], epsilon).squared_well;
-                out(unknown) =
-                    lives_in_fluid(field) ? 1 : well * well / (well * well + hardly_present * hardly_present);
+                out(unknown) = kept_by_cut(well * well, hardly_present * hardly_present);
             }
         }
     }
