@@ -94,6 +94,8 @@ PointPast some_past(const Parameters& p) {
     PointPast past;
     past.thickness = {p.phase_field.epsilon, 0.05, -0.08};
     past.normal = past.molecules_normal = {0.5, 0.6};
+    past.own = 0.9;
+    past.closest = {0.8, -0.6};
     past.slope_r = 0.1;
     past.slope_z = 0.05;
     past.arc = 1.2;

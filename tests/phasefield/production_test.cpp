@@ -86,9 +86,9 @@ TEST_CASE("what keeps G constant along the normal exerts no net force", "[produc
     x[normal_force] = {0.3, 0.2, -0.6};
     PointPast past;
     past.thickness.value = p.phase_field.epsilon;
-    past.normal = past.molecules_normal = {0.6, -0.8};
     const double chi_r = 2e-5, chi_z = 3e-5;  // so small that the force does not fade: by 4e-8 of itself
-    const GradientChange<double> change{0, past.normal.r * chi_r + past.normal.z * chi_z};
+    const auto n = own_normal(x[distance], past);
+    const GradientChange<double> change{0, n.r * chi_r + n.z * chi_z};
     const auto rows = point_equations(x, 7.0, past, change, numbers_of(p), LayerEnergy(p));
     const auto& own = rows[normal_force];
     const double aligned = own.r * chi_r + own.z * chi_z, force = own.value * x[distance].z + aligned;

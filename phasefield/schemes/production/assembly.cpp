@@ -39,7 +39,8 @@ Fields<Number> fields_from(const PointValues& values) {
 
 /// From ψ's second derivatives rr, rz, zz, the last variables, where the normal is n.
 template <class Number>
-GradientChange<Number> change_from(const std::array<double, 3>& second, const Direction& n, const Number& around) {
+GradientChange<Number> change_from(const std::array<double, 3>& second, const DirectionOf<Number>& n,
+                                   const Number& around) {
     std::array<Number, 3> x;
     for (unsigned int o = 0; o < 3; ++o) {
         x[o] = second[o];
@@ -73,7 +74,7 @@ EquationPattern::EquationPattern(const Parameters& p, const LayerEnergy& energy)
     StepNumbers step(p, {}, 1.0);
     step.move_at(1.0);  // what fades with the membrane's speed is there
     const auto x = fields_from<FeatureDual>(values);
-    const auto change = change_from({0.3, 0.2, 0.1}, past.normal, x[distance].r);
+    const auto change = change_from({0.3, 0.2, 0.1}, own_normal(x[distance], past), x[distance].r);
     const auto rows = equations_at(x, 3.0, past, change, step, energy);
     for (unsigned int row = 0; row < n_features; ++row)
         for (unsigned int column = 0; column < n_variables; ++column)
@@ -114,8 +115,8 @@ class CellEquations {
             for (unsigned int f = 0; f < n_fields; ++f)
                 values[f] = {local.field(f).value[q], local.field(f).r[q], local.field(f).z[q]};
             const auto x = fields_from<Number>(values);
-            const auto change =
-                change_from<Number>({psi.rr[q], psi.rz[q], psi.zz[q]}, past[q].normal, x[distance].r / r);
+            const auto change = change_from<Number>({psi.rr[q], psi.rz[q], psi.zz[q]}, own_normal(x[distance], past[q]),
+                                                    x[distance].r / r);
             auto rows = equations_at(x, r, past[q], change, *step_, *energy_);
             if (manufactured)
                 take_off(manufactured(r, box.z0 + box.hz * quadrature.point(q)[1]), r, past[q],

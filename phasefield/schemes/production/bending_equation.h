@@ -70,7 +70,7 @@ BendingForces<Number> add_bending(const Fields<Number>& x, const PointGeometry<N
                          w.value * b.r + twist * psi.r + (thickness.r * w.thickness) * b.value +
                              w.value * sheet.by_curvature * around.slope,
                          w.value * b.z + twist * psi.z + (thickness.z * w.thickness) * b.value};
-    add_alignment(x[normal_force], past.normal, force_diffusivity(p), row[normal_force]);
+    add_alignment(x[normal_force], own_normal(psi, past), force_diffusivity(p), row[normal_force]);
     const double compliance = energy.compliance(p.epsilon);
     const Number slope = psi.r * b.r + psi.z * b.z, flux = compliance * w.value * slope;
     row[moment].r += flux * psi.r;

@@ -29,8 +29,8 @@ void add_flow(const Fields<Number>& x, const PointGeometry<Number>& p, const Ben
     const Number g = p.density * (G.value - step.loads.pressure), molecular = step.weight.cut * p.density * force.along;
     const Number across = force.of_thickness + (force.across - molecular) * (psi.r * c.r + psi.z * c.z) /
                                                    (p.squared_gradient + gradient_floor * gradient_floor);
-    const Number uneven =
-        evenness(change, p.epsilon) * force_diffusivity(p) * (past.normal.r * G.r + past.normal.z * G.z);
+    const DirectionOf<Number> n = own_normal(psi, past);
+    const Number uneven = evenness(change, p.epsilon) * force_diffusivity(p) * (n.r * G.r + n.z * G.z);
     const Number nu = layer_viscosity(p.layer.phi, step.fluid, step.weight, step.numerics.viscosity_mean);
     const Number hoop = ur.value / r, divergence = ur.r + hoop + uz.z;
     const Number isotropic =

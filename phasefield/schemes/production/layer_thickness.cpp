@@ -1,6 +1,5 @@
 #include "phasefield/schemes/production/layer_thickness.h"
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
@@ -12,7 +11,7 @@
 #include <limits>
 #include <utility>
 
-#include "phasefield/contour/polyline.h"
+#include "phasefield/contour/closest_value.h"
 #include "phasefield/schemes/production/constants.h"
 #include "shared/model/time_scale.h"
 
@@ -146,7 +145,7 @@ ThicknessCurve::ThicknessCurve(const MembraneCurve& curve, double time, const Pa
 }
 
 double ThicknessCurve::at(double at_r, double at_z) const {
-    return at_closest_point(r, z, epsilon, at_r, at_z);
+    return ClosestValue(r, z, epsilon).at(at_r, at_z);
 }
 
 CellThickness::CellThickness(ThicknessCurve curve, const dealii::Triangulation<2>& mesh)
@@ -160,24 +159,16 @@ CellThickness::CellThickness(ThicknessCurve curve, const dealii::Triangulation<2
     dealii::DoFTools::make_hanging_node_constraints(dofs, hanging);
     hanging.close();
     dealii::Vector<double> values(dofs.n_dofs());  // of what this process sees
+    const ClosestValue closest(curve_.r, curve_.z, curve_.epsilon);
     for (const auto& cell : dofs.active_cell_iterators())
         if (!cell->is_artificial())
             for (unsigned int v = 0; v < 4; ++v)
-                values(cell->vertex_dof_index(v, 0)) = curve_.at(cell->vertex(v)[0], cell->vertex(v)[1]);
+                values(cell->vertex_dof_index(v, 0)) = closest.at(cell->vertex(v)[0], cell->vertex(v)[1]);
     hanging.distribute(values);
     for (const auto& cell : dofs.active_cell_iterators())
         if (cell->is_locally_owned())
             for (unsigned int v = 0; v < 4; ++v)
                 corners_[cell->active_cell_index()][v] = values(cell->vertex_dof_index(v, 0));
-}
-
-double CellThickness::difference(const CellThickness& other, MPI_Comm communicator) const {
-    double largest = 0;
-    for (std::size_t cell = 0; cell < corners_.size(); ++cell)
-        for (std::size_t v = 0; v < 4; ++v)
-            if (other.corners_[cell][v] > 0)
-                largest = std::max(largest, std::abs(corners_[cell][v] / other.corners_[cell][v] - 1));
-    return dealii::Utilities::MPI::max(largest, communicator);
 }
 
 PointThickness CellThickness::at(std::size_t active_cell, const CellBox& box, double x, double y) const {

@@ -47,9 +47,6 @@ class CellThickness {
     /// What it was made from.
     [[nodiscard]] const ThicknessCurve& curve() const { return curve_; }
 
-    /// The largest relative difference from another one on the same mesh, over all processes.
-    [[nodiscard]] double difference(const CellThickness& other, MPI_Comm communicator) const;
-
     /// At the point (x, y) of the unit cell.
     [[nodiscard]] PointThickness at(std::size_t active_cell, const CellBox& box, double x, double y) const;
 

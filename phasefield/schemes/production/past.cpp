@@ -19,13 +19,7 @@ namespace {
 
 constexpr double last_normal_below = constant("last_normal_below");
 constexpr double last_molecules_normal_below = constant("last_molecules_normal_below");
-constexpr double shortest_gradient = constant("shortest_gradient");
 constexpr double loaded_layer = constant("loaded_layer");
-
-Direction direction(double r, double z) {
-    const double length = std::max(std::hypot(r, z), shortest_gradient);
-    return {r / length, z / length};
-}
 
 /// Σ_j a_j y(t_j) and the predicted normals at the quadrature points of one cell.
 class PastFields {
@@ -69,7 +63,7 @@ class PastFields {
             const auto last = membrane_.at(box.r0 + box.hr * x[0], box.z0 + box.hz * x[1]);
             const auto normal = [&](double r, double z, double last_below) {
                 const double w = well / (well + last_below);
-                return direction(w * r + (1 - w) * last.r, w * z + (1 - w) * last.z);
+                return direction<double>(w * r + (1 - w) * last.r, w * z + (1 - w) * last.z);
             };
             if (step_->pole_force && well > loaded_layer)
                 points[q].pole_force = step_->pole_force->at(box.r0 + box.hr * x[0], box.z0 + box.hz * x[1]);
@@ -81,6 +75,8 @@ class PastFields {
             points[q].arc = sheet_arc(predicted_.value[q], around, change.laplacian);
             points[q].metric = sheet_metric(predicted_.value[q], around, change.laplacian);
             points[q].even = evenness(change, points[q].thickness.value);
+            points[q].own = well / (well + last_normal_below);
+            points[q].closest = {last.r, last.z};
             points[q].molecules_normal = normal(ahead_r_[q], ahead_z_[q], last_molecules_normal_below);
         }
     }

@@ -13,12 +13,14 @@
 namespace endoflow::phasefield::production {
 
 /// A unit vector; shorter where normals cross.
-struct Direction {
-    double r = 0, z = 0;
+template <class Number>
+struct DirectionOf {
+    Number r{}, z{};
 };
+using Direction = DirectionOf<double>;
 
 /// What is known at a point besides the iterate: Σ_j a_j y(t_j) of the past for every quantity with a time derivative,
-/// and of the predicted ψ the normal, at which alignment aims.
+/// and of the predicted ψ the normal, at which most alignment aims.
 struct PointPast {
     double distance = 0;    // of ψ
     double indicator = 0;   // of ∫ δ_m dψ
@@ -27,6 +29,8 @@ struct PointPast {
     double velocity_r = 0, velocity_z = 0;
     Direction normal;                 // n = ∇ψ/|∇ψ|; far from the membrane that of its closest point
     Direction molecules_normal;       // the same with the error of BDF, for c
+    double own = 1;                   // part of ψ's gradient in its own normal, the rest is the closest point's
+    Direction closest;                // normal of the membrane's closest point
     double slope_r = 0, slope_z = 0;  // ∇Σ_j a_j ψ(t_j)
     PointThickness thickness;         // ε, the same for all times
     double arc = 1, metric = 1;       // sheet_arc, sheet_metric
@@ -35,7 +39,7 @@ struct PointPast {
     double bulk = 1;                  // c_b/c_∞ of the fluid that molecules come from
 };
 
-/// What the equations need of ψ's second derivatives [1/nm]: n·∇∇ψ with the predicted n, how ∇ψ changes along the
+/// What the equations need of ψ's second derivatives [1/nm]: n·∇∇ψ with ψ's own normal, how ∇ψ changes along the
 /// normal, 0 where ψ is a distance, and Δψ.
 template <class Number>
 struct GradientChange {
@@ -45,8 +49,8 @@ struct GradientChange {
 
 /// From ψ's second derivatives; `around` is ψ_r/r.
 template <class Number>
-GradientChange<Number> gradient_change(const Direction& n, const Number& rr, const Number& rz, const Number& zz,
-                                       const Number& around) {
+GradientChange<Number> gradient_change(const DirectionOf<Number>& n, const Number& rr, const Number& rz,
+                                       const Number& zz, const Number& around) {
     return {n.r * rr + n.z * rz, n.r * rz + n.z * zz, rr + zz + around};
 }
 
@@ -80,6 +84,24 @@ template <class Number>
 Number inverse_root(const Number& x) {
     const double f = 1 / std::sqrt(value_of(x));
     return chain(x, f, -0.5 * f / value_of(x));
+}
+
+/// Along (r, z), shorter where that is below shortest_gradient.
+template <class Number>
+DirectionOf<Number> direction(const Number& r, const Number& z) {
+    constexpr double shortest = constant("shortest_gradient");
+    const Number square = r * r + z * z;
+    if (value_of(square) < shortest * shortest) return {(1 / shortest) * r, (1 / shortest) * z};
+    const Number inverse = inverse_root(square);
+    return {inverse * r, inverse * z};
+}
+
+/// ψ's own normal, at which the alignment of G aims: a predicted one, turned by as little as a step's error, shifts the
+/// force, some 10 pN/nm, along the membrane, which follows within nanoseconds, and the next prediction with it.
+template <class Number>
+DirectionOf<Number> own_normal(const AtPoint<Number>& psi, const PointPast& past) {
+    const double rest = 1 - past.own;
+    return direction<Number>(past.own * psi.r + rest * past.closest.r, past.own * psi.z + rest * past.closest.z);
 }
 
 /// g = ε ∇(ψ/ε) = ∇ψ − (ψ/ε) ∇ε, normal to the layer's sheets of constant ψ/ε.
@@ -124,16 +146,18 @@ PointGeometry<Number> point_geometry(const AtPoint<Number>& psi, const PointThic
 }
 
 /// The part of g along the normal, (n n + (1 − |n|²))·g: all of it where normals cross and n vanishes.
-template <class Number>
-Number normal_part(const Direction& n, double n_own, const Number& own, double n_other, const Number& other) {
-    return (1 - n.r * n.r - n.z * n.z + n_own * n_own) * own + (n_own * n_other) * other;
+template <class Normal, class Number>
+Number normal_part(const DirectionOf<Normal>& n, const Normal& n_own, const Number& own, const Normal& n_other,
+                   const Number& other) {
+    return (1.0 - n.r * n.r - n.z * n.z + n_own * n_own) * own + (n_own * n_other) * other;
 }
 
-/// D_n ∇·(δ n n·∇y): keeps y constant along the normal, a predicted one, so that the term is linear. For what belongs
-/// to one membrane D_n holds the evenness: where the layers of bud and plane meet, molecules would change over, and
-/// tension.
-template <class Number>
-void add_alignment(const AtPoint<Number>& y, const Direction& n, const Number& diffusivity, AtPoint<Number>& row) {
+/// D_n ∇·(δ n n·∇y): keeps y constant along the normal, of most fields a predicted one, so that the term is linear. For
+/// what belongs to one membrane D_n holds the evenness: where the layers of bud and plane meet, molecules would change
+/// over, and tension.
+template <class Normal, class Number>
+void add_alignment(const AtPoint<Number>& y, const DirectionOf<Normal>& n, const Number& diffusivity,
+                   AtPoint<Number>& row) {
     row.r += diffusivity * normal_part(n, n.r, y.r, n.z, y.z);
     row.z += diffusivity * normal_part(n, n.z, y.z, n.r, y.r);
 }

@@ -30,6 +30,7 @@ constexpr double tolerated_excess = constant("tolerated_excess");
 constexpr double newton_part = constant("newton_part");
 constexpr double smallest_step = constant("smallest_step");
 constexpr double largest_motion = constant("largest_motion");
+constexpr double longer_steps = constant("longer_steps");
 
 /// Largest relative error of a step.
 double step_tolerance(const Parameters& p) {
@@ -39,6 +40,11 @@ double step_tolerance(const Parameters& p) {
 /// The same of the membrane's position [nm].
 double position_tolerance(const Parameters& p) {
     return step_tolerance(p) * size_of_membrane(p.domain);
+}
+
+/// Longest step [µs]: at rest only the error limits it.
+double longest(const Parameters& p) {
+    return p.time.max_step > 0 ? p.time.max_step : longer_steps * longest_step(p);
 }
 
 }  // namespace
@@ -118,12 +124,7 @@ void ProductionScheme::restore_molecules() {
 
 void ProductionScheme::foresee_thickness(double tau) {
     if (parameters_.phase_field.production.thinning == 0) return;
-    auto foreseen = thickness_on(*mesh_, ThicknessCurve(membrane_, tau, parameters_));
-    if (foreseen && numbers_.thickness &&
-        foreseen->difference(*numbers_.thickness, mesh_->get_communicator()) <
-            kept_change(numbers_.rates, numbers_.speed))
-        return;
-    numbers_.thickness = std::move(foreseen);
+    numbers_.thickness = thickness_on(*mesh_, ThicknessCurve(membrane_, tau, parameters_));
     restore_molecules();
 }
 
@@ -268,7 +269,7 @@ void ProductionScheme::keep(double time, double tau, const StepOutcome& outcome)
     // A step that was cut short by a deadline does not shorten the next one.
     const double next = trial_factor_ * tau;
     nominal_ = tau < nominal_ && trial_factor_ >= 1 ? std::max(nominal_, next) : next;
-    nominal_ = std::min(nominal_, longest_step(parameters_));
+    nominal_ = std::min(nominal_, longest(parameters_));
     speed_ = outcome.diagnostics.motion_max / tau;
     moved_ += trial_motion_;
     since_start_ += 1;

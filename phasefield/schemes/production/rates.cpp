@@ -35,7 +35,6 @@ SchemeRates scheme_rates(const Parameters& p) {
     rates.stretching_alignment = factors.stretching_alignment * speed * radius;
     rates.least_normal_diffusivity = constant("least_normal_diffusivity") * speed * std::pow(radius, 4);
     rates.fast_membrane = constant("fast_membrane") * speed;
-    rates.resting_membrane = constant("resting_membrane") * speed;
     rates.molecule_leak = constant("molecule_leak") * speed;
     rates.tension_alignment = factors.tension_alignment * fluidity;
     rates.tension_leak = factors.tension_leak * fluidity;
@@ -43,11 +42,6 @@ SchemeRates scheme_rates(const Parameters& p) {
     rates.pressure_leak = constant("pressure_leak") * fluidity / p.phase_field.epsilon;
     rates.divergence_penalty = constant("divergence_penalty") * speed;
     return rates;
-}
-
-double kept_change(const SchemeRates& rates, double membrane_speed) {
-    constexpr double at_rest = constant("kept_thickness");
-    return membrane_speed <= rates.resting_membrane ? at_rest : at_rest * rates.resting_membrane / membrane_speed;
 }
 
 }  // namespace endoflow::phasefield::production

@@ -14,7 +14,6 @@ struct SchemeRates {
     double stretching_alignment = 0;      // of s [nm²/µs]
     double least_normal_diffusivity = 0;  // of c, times ε³ [nm⁵/µs]
     double fast_membrane = 0;             // from where on its shear asks for all of that [nm/µs]
-    double resting_membrane = 0;          // up to where its thickness stays as it is [nm/µs]
     double molecule_leak = 0;             // of c [nm/µs]
     double tension_alignment = 0;         // of λ [nm²/(pN µs)]
     double tension_leak = 0;              // of λ and q [nm²/(pN µs)]
@@ -26,8 +25,5 @@ struct SchemeRates {
 /// Scales: the box's radius R, of a vesicle its longer semi-axis, the membrane's speed V = R/natural_time, the smaller
 /// viscosity ν, and ε.
 [[nodiscard]] SchemeRates scheme_rates(const Parameters& parameters);
-
-/// The relative change of the layer's thickness below which that stays as it is, of a membrane as fast as this [nm/µs].
-[[nodiscard]] double kept_change(const SchemeRates& rates, double membrane_speed);
 
 }  // namespace endoflow::phasefield::production

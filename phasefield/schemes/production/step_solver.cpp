@@ -20,6 +20,7 @@ namespace {
 constexpr int most_iterations = count("most_iterations");
 constexpr int seen_enough = count("seen_enough");
 constexpr double farthest = constant("farthest");
+constexpr unsigned int most_failures = count("most_failures");
 constexpr int most_factorisations = count("most_factorisations");
 constexpr double fast_contraction = constant("fast_contraction");
 constexpr double largest_rest = constant("largest_rest");
@@ -107,11 +108,18 @@ bool StepSolver::near_factors(const Problem& problem, const Vector& solution) co
 
 StepSolver::Ending StepSolver::iterate_with_old_factors(const Problem& problem, Vector& solution) {
     if (!system_.has_factors() || !near_factors(problem, solution)) return Ending::slow;
-    try {
-        return iterate(problem, solution, nullptr);
-    } catch (const SolverError&) {
-        return Ending::diverged;
+    if (distrust_.steps > 0) {
+        --distrust_.steps;
+        return Ending::slow;
     }
+    Ending ending = Ending::diverged;
+    try {
+        ending = iterate(problem, solution, nullptr);
+    } catch (const SolverError&) {  // new factors may serve
+    }
+    distrust_.failures = ending == Ending::converged ? 0 : std::min(distrust_.failures + 1, most_failures);
+    distrust_.steps = distrust_.failures < 2 ? 0 : 1U << (distrust_.failures - 2);
+    return ending;
 }
 
 StepSolver::Ending StepSolver::iterate_with_new_factors(const Problem& problem, Vector& solution) {
@@ -127,11 +135,13 @@ StepSolver::Ending StepSolver::iterate_with_new_factors(const Problem& problem, 
 
 void StepSolver::solve(const Space& space, const StepNumbers& numbers, const StepPast& history, Vector& solution) {
     const Origin before = origin_;
+    const Distrust distrust = distrust_;
     const Precision precision = system_.precision();
     try {
         converge({&space, &numbers, &history}, solution);
     } catch (const Interrupted&) {
         origin_ = before;
+        distrust_ = distrust;
         system_.use(precision);
         throw;
     }
@@ -172,6 +182,8 @@ std::vector<const Vector*> StepSolver::save(Checkpoint& checkpoint) const {
     checkpoint.arrays["solver_counts"] = {
         static_cast<double>(counts_.iterations), static_cast<double>(counts_.factorisations),
         static_cast<double>(counts_.of_double_precision), static_cast<double>(counts_.single_precision_failed)};
+    checkpoint.arrays["factors_distrust"] = {static_cast<double>(distrust_.failures),
+                                             static_cast<double>(distrust_.steps)};
     checkpoint.scalars["factors_rate"] = origin_.rate;
     checkpoint.scalars["factors_speed"] = origin_.speed;
     checkpoint.scalars["factors_molecules"] = origin_.molecules;
@@ -193,10 +205,14 @@ std::size_t StepSolver::saved_vectors(const Checkpoint& checkpoint) {
 void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint,
                       const std::vector<Vector>& vectors) {
     if (checkpoint.scalar("factors_full_precision") != 0) system_.use(Precision::full);
-    const auto& counts = checkpoint.array("solver_counts");
-    const auto whole = [&counts](std::size_t i) { return static_cast<unsigned int>(counts.at(i)); };
+    const auto whole = [&checkpoint](const char* name, std::size_t i) {
+        return static_cast<unsigned int>(checkpoint.array(name).at(i));
+    };
     if (!vectors.empty()) factorise_again(space, std::move(numbers), checkpoint, vectors);
-    counts_ = {whole(0), whole(1), whole(2), whole(3)};  // without factors that are made for the second time
+    const char* counts = "solver_counts";
+    counts_ = {whole(counts, 0), whole(counts, 1), whole(counts, 2),
+               whole(counts, 3)};  // without the factors just made
+    distrust_ = {whole("factors_distrust", 0), whole("factors_distrust", 1)};
 }
 
 void StepSolver::factorise_again(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint,

@@ -67,6 +67,11 @@ class StepSolver {
         std::vector<Vector> vectors;  // the iterate, the guess, the solutions before, newest first
     };
 
+    /// How often in a row factors of earlier steps have failed, and how many steps long they are left alone for it.
+    struct Distrust {
+        unsigned int failures = 0, steps = 0;
+    };
+
     void converge(const Problem& problem, Vector& solution);
     [[nodiscard]] bool near_factors(const Problem& problem, const Vector& solution) const;
     /// Those of a checkpoint.
@@ -86,6 +91,7 @@ class StepSolver {
     EquationPattern pattern_;
     CondensedSystem system_;
     Origin origin_;
+    Distrust distrust_;
     Counts counts_;
     double wanted_;
     std::vector<double> least_;  // first increments that count, field by field
