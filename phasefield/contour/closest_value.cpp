@@ -1,7 +1,6 @@
 #include "phasefield/contour/closest_value.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -12,12 +11,6 @@ namespace endoflow::phasefield {
 namespace {
 
 constexpr int newton_steps = 4;  // from the polyline's closest point: to round-off where curvature is resolved
-
-std::vector<double> chord_length(const std::vector<double>& r, const std::vector<double>& z) {
-    std::vector<double> t(r.size(), 0);
-    for (std::size_t i = 1; i < r.size(); ++i) t[i] = t[i - 1] + std::hypot(r[i] - r[i - 1], z[i] - z[i - 1]);
-    return t;
-}
 
 }  // namespace
 

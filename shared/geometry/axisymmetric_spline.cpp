@@ -1,6 +1,14 @@
 #include "shared/geometry/axisymmetric_spline.h"
 
+#include <cmath>
+
 namespace endoflow {
+
+std::vector<double> chord_length(const std::vector<double>& r, const std::vector<double>& z) {
+    std::vector<double> t(r.size(), 0);
+    for (std::size_t i = 1; i < r.size(); ++i) t[i] = t[i - 1] + std::hypot(r[i] - r[i - 1], z[i] - z[i - 1]);
+    return t;
+}
 
 namespace {
 

@@ -12,6 +12,9 @@ namespace endoflow {
 /// What a curve ends at, having started on the axis.
 enum class FarEnd { free, axis };
 
+/// The parameter that all splines of a curve share: chord length from its first point [nm].
+[[nodiscard]] std::vector<double> chord_length(const std::vector<double>& r, const std::vector<double>& z);
+
 /// Cubic spline of a function known at parameters 0 = t0 < t1 < …, continued to t < 0 as an even or odd function, and
 /// so beyond the last parameter of a curve that ends on the axis.
 class AxisymmetricSpline {

@@ -15,14 +15,6 @@ namespace {
 
 using Quadrature = boost::math::quadrature::gauss<double, 7>;
 
-/// The parameter all splines of a curve share: chord length from the axis, nm.
-std::vector<double> chord_length(const MembraneCurve& curve) {
-    std::vector<double> t(curve.size(), 0);
-    for (std::size_t i = 1; i < curve.size(); ++i)
-        t[i] = t[i - 1] + std::hypot(curve.r[i] - curve.r[i - 1], curve.z[i] - curve.z[i - 1]);
-    return t;
-}
-
 void require_valid(const MembraneCurve& curve) {
     const std::size_t n = curve.size();
     if (n < 4 || curve.z.size() != n) throw std::invalid_argument("a membrane curve needs at least 4 points");
@@ -39,7 +31,7 @@ struct Shape : Meridian {
     AxisymmetricSpline r, z;
 
     explicit Shape(const MembraneCurve& curve)
-        : t(chord_length(curve)),
+        : t(chord_length(curve.r, curve.z)),
           end(curve.closed() ? FarEnd::axis : FarEnd::free),
           r(t, curve.r, Parity::odd, end),
           z(t, curve.z, Parity::even, end) {}

@@ -13,6 +13,7 @@
 
 #include "phasefield/contour/closest_value.h"
 #include "phasefield/schemes/production/constants.h"
+#include "shared/geometry/axisymmetric_spline.h"
 #include "shared/model/time_scale.h"
 
 namespace endoflow::phasefield::production {
@@ -27,10 +28,7 @@ constexpr double room_needed = constant("room_needed");
 /// The curve by arc length, mirrored at the axis and straight beyond the rim. What lies behind the axis has negative r.
 class ByArcLength {
   public:
-    explicit ByArcLength(const MembraneCurve& curve) : curve_(&curve) {
-        for (std::size_t i = 0; i < curve.size(); ++i)
-            s.push_back(i == 0 ? 0 : s.back() + std::hypot(curve.r[i] - curve.r[i - 1], curve.z[i] - curve.z[i - 1]));
-    }
+    explicit ByArcLength(const MembraneCurve& curve) : s(chord_length(curve.r, curve.z)), curve_(&curve) {}
 
     [[nodiscard]] PlanePoint at(double along) const {
         const double distance = std::abs(along);

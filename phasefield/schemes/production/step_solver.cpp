@@ -205,14 +205,12 @@ std::size_t StepSolver::saved_vectors(const Checkpoint& checkpoint) {
 void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint,
                       const std::vector<Vector>& vectors) {
     if (checkpoint.scalar("factors_full_precision") != 0) system_.use(Precision::full);
-    const auto whole = [&checkpoint](const char* name, std::size_t i) {
-        return static_cast<unsigned int>(checkpoint.array(name).at(i));
-    };
+    const auto &counts = checkpoint.array("solver_counts"), &distrust = checkpoint.array("factors_distrust");
+    const auto whole = [](double number) { return static_cast<unsigned int>(number); };
     if (!vectors.empty()) factorise_again(space, std::move(numbers), checkpoint, vectors);
-    const char* counts = "solver_counts";
-    counts_ = {whole(counts, 0), whole(counts, 1), whole(counts, 2),
-               whole(counts, 3)};  // without the factors just made
-    distrust_ = {whole("factors_distrust", 0), whole("factors_distrust", 1)};
+    // Without the factors just made.
+    counts_ = {whole(counts.at(0)), whole(counts.at(1)), whole(counts.at(2)), whole(counts.at(3))};
+    distrust_ = {whole(distrust.at(0)), whole(distrust.at(1))};
 }
 
 void StepSolver::factorise_again(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint,
