@@ -47,7 +47,7 @@ def seconds_per_step(numerics):
     """Seconds of a step of scheme paper."""
     epsilon = numerics.get("epsilon", LAYER)
     h = numerics.get("cell_size") or 1.04 * epsilon
-    cells = MEMBRANE * 2 * numerics.get("band_width", 4.5) * epsilon / h**2
+    cells = MEMBRANE * 2 * (numerics.get("band_width") or 4.5) * epsilon / h**2
     nodes = numerics.get("degree", 3) ** 2 * 6.3
     return PER_STEP * (1e-3 * cells * nodes) ** UNKNOWNS_POWER
 

@@ -40,14 +40,14 @@ std::unique_ptr<Mesh> coarse_mesh(const Parameters& p, MPI_Comm communicator) {
     return mesh;
 }
 
-double distance_to_cell(const CellBox& box, const std::vector<PlanePoint>& curve) {
+double distance_from_band(const CellBox& box, const RefinedBand& band) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const auto& point : curve) {
-        const double dr = std::max({box.r0 - point.r, point.r - box.r0 - box.hr, 0.0});
-        const double dz = std::max({box.z0 - point.z, point.z - box.z0 - box.hz, 0.0});
-        nearest = std::min(nearest, dr * dr + dz * dz);
+    for (const auto& [at, reach] : band.points) {
+        const double dr = std::max({box.r0 - at.r, at.r - box.r0 - box.hr, 0.0});
+        const double dz = std::max({box.z0 - at.z, at.z - box.z0 - box.hz, 0.0});
+        nearest = std::min(nearest, std::hypot(dr, dz) - reach);
     }
-    return std::sqrt(nearest);
+    return nearest;
 }
 
 bool flag_bands(Mesh& mesh, const std::vector<RefinedBand>& bands) {
@@ -58,9 +58,9 @@ bool flag_bands(Mesh& mesh, const std::vector<RefinedBand>& bands) {
         bool refine = false, keep = level == 0;
         for (const auto& band : bands) {
             if (band.level < level) continue;
-            const double distance = distance_to_cell(box, band.curve);
-            refine = refine || (band.level > level && distance < band.inner);
-            keep = keep || distance <= band.outer;
+            const double distance = distance_from_band(box, band);
+            refine = refine || (band.level > level && distance < 0);
+            keep = keep || distance <= band.slack;
         }
         if (refine)
             cell->set_refine_flag();

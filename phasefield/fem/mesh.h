@@ -20,15 +20,20 @@ double layer_cell_size(const Parameters& parameters);
 /// coarse cells in z is even and the pin band's edges fall on grid lines whenever h divides them.
 std::unique_ptr<Mesh> coarse_mesh(const Parameters& parameters, MPI_Comm communicator);
 
-/// Distance of a cell from a polyline: zero when they meet [nm].
-double distance_to_cell(const CellBox& box, const std::vector<PlanePoint>& curve);
-
-/// Cells within `inner` [nm] of the curve get at least this level; those farther than `outer` need it no longer.
+/// Cells closer than the reach of one of the points get at least this level; those farther than `slack` from what all
+/// reach need it no longer [nm].
 struct RefinedBand {
-    std::vector<PlanePoint> curve;
+    struct Point {
+        PlanePoint at;
+        double reach;
+    };
+    std::vector<Point> points;
     unsigned int level;
-    double inner, outer;
+    double slack;
 };
+
+/// The least distance of a cell from what the band's points reach: negative inside [nm].
+double distance_from_band(const CellBox& box, const RefinedBand& band);
 
 /// Sets refinement flags, one level per call. Returns true (on all ranks) when the mesh would change.
 bool flag_bands(Mesh& mesh, const std::vector<RefinedBand>& bands);

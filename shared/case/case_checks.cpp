@@ -32,6 +32,9 @@ using Require = std::function<void(bool holds, const std::string& message)>;
 /// The initial profile is a patch only if c is about 1 in its middle and about 0 at the rim.
 constexpr double least_contrast = 0.9;
 
+/// Half width of a band of small cells in units of ε: (1 − φ²)² is 0.04 there.
+constexpr double least_band = 2;
+
 void check_box(const Parameters& p, const Require& require) {
     const double below = p.domain.membrane_height, above = p.domain.height - p.domain.membrane_height;
     require(p.molecules.patch_radius < p.domain.radius,
@@ -57,6 +60,11 @@ void check_box(const Parameters& p, const Require& require) {
                         "domain.radius = {} nm and domain.height = {} nm: more than {} cells",
                         p.phase_field.cell_size, p.phase_field.epsilon, p.domain.radius, p.domain.height,
                         most_cells_across));
+    const double band = p.phase_field.band_width;
+    require(band == 0 || band >= least_band,
+            fmt::format("phase_field.band_width = {:g} leaves parts of the layer on large cells; it must be 0 or at "
+                        "least {:g}",
+                        band, least_band));
     const double spacing = p.boundary_integral.field_spacing;
     require(
         p.output.field_interval == 0 || (p.domain.radius / spacing) * (p.domain.height / spacing) <= most_field_points,

@@ -237,8 +237,9 @@ std::vector<ParameterRow> phase_field_rows() {
             "cells far from the membrane are 2^this times larger; the paper: 3"),
         row("phase_field", "free_space", &P::phase_field, &S::free_space, "", at_least(1.5, 100), "",
             "free space: radius and half height of the box, in longer semi-axes of the spheroid"),
-        row("phase_field", "band_width", &P::phase_field, &S::band_width, "", at_least(2, 20), "",
-            "half width of the band of small cells around the membrane, in units of ε"),
+        row("phase_field", "band_width", &P::phase_field, &S::band_width, "", at_least(0, 20), "",
+            "half width of the band of small cells around the membrane, in units of ε, at least 2; 0 = chosen by the "
+            "scheme"),
         row("phase_field", "degree", &P::phase_field, &S::degree, "", at_least(2, 6), "",
             "polynomial degree of φ, g and f; the paper: 2, which pins the interface to cells of size ε"),
         row("phase_field", "velocity_degree", &P::phase_field, &S::velocity_degree, "", at_least(2, 6), "",

@@ -116,7 +116,7 @@ struct PhaseFieldParameters {
     double cell_size = 0;
     int far_refinements = 3;
     double free_space = 8;
-    double band_width = 4.5;
+    double band_width = 0;
     int degree = 3;
     int velocity_degree = 3;
     int tension_degree = 2;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "phasefield/schemes/production/layer_thickness.h"
 #include "phasefield/schemes/production/refinement.h"
 
 using namespace endoflow;
@@ -42,7 +43,7 @@ Parameters with_cells() {
 double wanted_size(const std::vector<RefinedBand>& bands, const Parameters& p, double r, double z) {
     unsigned int level = 0;
     for (const auto& band : bands)
-        if (distance_to_cell({r, z, 0, 0}, band.curve) < band.inner) level = std::max(level, band.level);
+        if (distance_from_band({r, z, 0, 0}, band) < 0) level = std::max(level, band.level);
     return cell_size * std::exp2(static_cast<double>(p.phase_field.far_refinements) - level);
 }
 
@@ -75,6 +76,31 @@ TEST_CASE("cells are finer where the layer is thinner", "[refinement]") {
     CHECK(wanted_size(refined_bands(bud_on_neck(18.0), p), p, 18, 60) == cell_size);
 }
 
+TEST_CASE("fine cells reach three thicknesses of the layer that is there", "[refinement]") {
+    Parameters p = with_cells();
+    p.phase_field.production.thinning = 0.175;
+    const double neck = 3;
+    auto curve = bud_on_neck(neck);
+    curve.u_r.assign(curve.size(), 0);
+    curve.u_z.assign(curve.size(), 0);
+    const auto thickness = thickness_along(curve, p);
+    std::size_t middle = 0;
+    for (std::size_t i = 0; i < curve.size(); ++i)
+        if (curve.z[i] < 100 && std::abs(curve.z[i] - 60) < std::abs(curve.z[middle] - 60)) middle = i;
+    const double reach = 3 * thickness[middle];
+    REQUIRE(reach < 0.5 * neck);
+    const auto smallest_at = [&](double from_axis) { return wanted_size(refined_bands(curve, p), p, from_axis, 60); };
+    const double here = smallest_at(neck);
+    CHECK(smallest_at(neck - 0.99 * reach) == here);
+    CHECK(smallest_at(neck - 1.3 * reach) > here);  // thicker parts of the layer reach on, they are farther away
+
+    // What moves is fine 1.5 thicknesses of its own ahead, where it is the fastest in these units.
+    for (std::size_t i = 0; i < curve.size(); ++i)
+        if (std::abs(curve.z[i] - 60) < 0.1) curve.u_r[i] = -1;
+    CHECK(smallest_at(neck - 0.99 * (reach + 1.5 * thickness[middle])) == here);
+    CHECK(smallest_at(neck - 1.3 * (reach + 1.5 * thickness[middle])) > here);
+}
+
 TEST_CASE("cells are finer at the patch's edge alone", "[refinement]") {
     Parameters p = with_cells();
     p.molecules.interface_width = 1;
@@ -87,7 +113,8 @@ TEST_CASE("cells are finer at the patch's edge alone", "[refinement]") {
 }
 
 TEST_CASE("cells are fine where the membrane will be when the mesh follows", "[refinement]") {
-    const Parameters p = with_cells();
+    Parameters p = with_cells();
+    const double band = p.phase_field.band_width = 4.5;
     auto curve = bud_on_neck(12);
     curve.u_r.assign(curve.size(), 0);
     curve.u_z.assign(curve.size(), 0);
@@ -101,6 +128,6 @@ TEST_CASE("cells are fine where the membrane will be when the mesh follows", "[r
     const auto bands = refined_bands(curve, p);
     CHECK(far_from_tip(bands) == Approx(at_rest + follow_after_motion(p)).margin(0.11));
     // Not in front of what rests.
-    const double beside = 20 + p.phase_field.band_width * p.phase_field.epsilon;
+    const double beside = 20 + band * p.phase_field.epsilon;
     CHECK(wanted_size(bands, p, beside + 0.1, 100) > cell_size);
 }

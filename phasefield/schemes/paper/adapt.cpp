@@ -19,9 +19,7 @@ Vector carry_over(Transfer& transfer, const Space& space) {
 
 /// One pass: cells change by at most one level.
 bool adapt_once(Discretization& d, State& state, const std::vector<PlanePoint>& curve) {
-    const auto widths = band_widths(d.parameters.phase_field);
-    const auto finest = static_cast<unsigned int>(d.parameters.phase_field.far_refinements);
-    if (!flag_bands(*d.mesh, {{curve, finest, widths.inner, widths.outer}})) return false;
+    if (!flag_bands(*d.mesh, {layer_band(curve, d.parameters.phase_field)})) return false;
 
     Transfer flow(d.spaces.flow.dofs), molecules(d.spaces.molecules.dofs), stretching(d.spaces.stretching.dofs);
     flow.prepare_for_coarsening_and_refinement(state.flow);

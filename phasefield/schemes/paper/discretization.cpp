@@ -1,10 +1,18 @@
 #include "phasefield/schemes/paper/discretization.h"
 
+#include <limits>
+
 #include "phasefield/schemes/paper/bending.h"
 #include "phasefield/schemes/paper/diagnostics.h"
 #include "shared/model/initial_condition.h"
 
 namespace endoflow::phasefield::paper {
+
+namespace {
+
+constexpr double default_band_width = 4.5;  // [ε]
+
+}  // namespace
 
 Discretization::Discretization(const Parameters& parameters_, MPI_Comm communicator_)
     : parameters(parameters_),
@@ -35,9 +43,11 @@ ContourFields contour_fields(const Spaces& spaces, const State& state) {
     return {&spaces.flow, &state.flow, phi, u_r, u_z, tension, 2, &spaces.molecules, &state.molecules, concentration};
 }
 
-BandWidths band_widths(const PhaseFieldParameters& p) {
-    const double inner = p.band_width * p.epsilon;
-    return {inner, inner + 2 * p.cell_size};
+RefinedBand layer_band(const std::vector<PlanePoint>& curve, const PhaseFieldParameters& p) {
+    RefinedBand band{{}, static_cast<unsigned int>(p.far_refinements), 2 * p.cell_size};
+    const double layers = p.band_width > 0 ? p.band_width : default_band_width;
+    for (const auto& point : curve) band.points.push_back({point, layers * p.epsilon});
+    return band;
 }
 
 State initial_state(Discretization& d) {
@@ -45,9 +55,9 @@ State initial_state(Discretization& d) {
     const double z0 = p.domain.membrane_height, epsilon = p.phase_field.epsilon;
     std::vector<PlanePoint> curve;
     for (double r = 0; r <= p.domain.radius; r += 0.25 * p.phase_field.cell_size) curve.push_back({r, z0});
-    const auto widths = band_widths(p.phase_field);
-    const auto finest = static_cast<unsigned int>(p.phase_field.far_refinements);
-    while (flag_bands(*d.mesh, {{curve, finest, widths.inner, 1e300}})) d.mesh->execute_coarsening_and_refinement();
+    RefinedBand band = layer_band(curve, p.phase_field);
+    band.slack = std::numeric_limits<double>::infinity();
+    while (flag_bands(*d.mesh, {band})) d.mesh->execute_coarsening_and_refinement();
     d.renew();
 
     State state = empty_state(d.spaces);

@@ -32,11 +32,8 @@ State empty_state(const Spaces& spaces);
 /// The membrane φ = 0 and what is known on it; ∫|∇φ| across the layer is 2, so the sharp tension is 2 λ.
 ContourFields contour_fields(const Spaces& spaces, const State& state);
 
-struct BandWidths {
-    double inner, outer;  // nm
-};
-/// Half widths of the band that must be fine and of the one outside of which cells may coarsen.
-BandWidths band_widths(const PhaseFieldParameters& parameters);
+/// The layer around the curve, whose cells are the finest.
+RefinedBand layer_band(const std::vector<PlanePoint>& curve, const PhaseFieldParameters& parameters);
 
 /// Adapts the mesh to the curve and carries the state over. Cells are refined ahead of the membrane and coarsened far
 /// from it, so that φ, c and s are carried over exactly within the layer; ∫|∇φ| c and ∫|∇φ| s are then restored to

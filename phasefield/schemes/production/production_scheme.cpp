@@ -25,6 +25,7 @@ constexpr double default_tolerance = constant("default_tolerance");
 constexpr double error_part = constant("error_part");
 constexpr double safety = constant("safety");
 constexpr double largest_growth = constant("largest_growth");
+constexpr double after_hard_step = constant("after_hard_step");
 constexpr double almost_all = constant("almost_all");
 constexpr double tolerated_excess = constant("tolerated_excess");
 constexpr double newton_part = constant("newton_part");
@@ -207,7 +208,9 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     trial_.update_ghost_values();
     if (bulk_) numbers_.supply = bulk_->foresee({space_, energy_, numbers_, bdf, guess});
     const StepPast history(space_, numbers_, solutions_, bdf.past, extrapolation_weights(end, times_, order()), guess);
+    const unsigned int factorisations = solver_.counts().factorisations;
     solver_.solve(space_, numbers_, history, trial_);
+    const bool hard = solver_.counts().factorisations > factorisations + 1;
 
     Vector rate = space_.vector();
     rate.add(bdf.rate, trial_);
@@ -238,6 +241,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
         trial_factor_ = std::min(trial_factor_, safety * std::pow(larger, -1 / (1 + static_cast<double>(order()))));
     }
     if (trial_motion_ > 0) trial_factor_ = std::min(trial_factor_, safety * farthest / trial_motion_);
+    if (hard) trial_factor_ = std::min(trial_factor_, after_hard_step);
     StepOutcome outcome{measures.diagnostics, {}, {}};
     if (!std::isfinite(measures.diagnostics.bending_energy))
         outcome.rejection = "the energy is not a number";

@@ -24,10 +24,12 @@ constexpr unsigned int most_neck_levels = count("most_neck_levels");
 
 using Indices = std::vector<std::size_t>;
 
-/// Points of the curve, and where they will be when the mesh follows again.
+/// Points of the curve, where the layer has this thickness [nm], and where they will be when the mesh follows again:
+/// the one that moves most layers of its own is `motion` of the thickest layers away [nm].
 class Path {
   public:
-    Path(const MembraneCurve& curve, double distance) : curve_(&curve), ahead_(curve.size()) {
+    Path(const MembraneCurve& curve, const std::vector<double>& thickness, double thickest, double motion)
+        : curve_(&curve), thickness_(&thickness), ahead_(curve.size()) {
         if (curve.u_r.size() != curve.size()) return;  // at rest
         double fastest = 0;
         for (std::size_t i = 0; i < curve.size(); ++i) {
@@ -35,23 +37,26 @@ class Path {
             const double dr = curve.r[after] - curve.r[before], dz = curve.z[after] - curve.z[before];
             const double speed = (curve.u_z[i] * dr - curve.u_r[i] * dz) / (dr * dr + dz * dz);
             ahead_[i] = {-speed * dz, speed * dr};  // the velocity's part across the membrane
-            fastest = std::max(fastest, std::hypot(ahead_[i].r, ahead_[i].z));
+            fastest = std::max(fastest, std::hypot(ahead_[i].r, ahead_[i].z) * thickest / thickness[i]);
         }
-        const double time = fastest > 0 ? distance / fastest : 0;
+        const double time = fastest > 0 ? motion / fastest : 0;
         for (auto& step : ahead_) step = {step.r * time, step.z * time};
     }
 
-    [[nodiscard]] std::vector<PlanePoint> of(const Indices& indices) const {
-        std::vector<PlanePoint> out;
+    /// All within `layers` of its own thickness of these points.
+    [[nodiscard]] std::vector<RefinedBand::Point> around(const Indices& indices, double layers) const {
+        std::vector<RefinedBand::Point> out;
         for (const std::size_t i : indices) {
-            out.push_back({curve_->r[i], curve_->z[i]});
-            out.push_back({curve_->r[i] + ahead_[i].r, curve_->z[i] + ahead_[i].z});
+            const double reach = layers * (*thickness_)[i];
+            out.push_back({{curve_->r[i], curve_->z[i]}, reach});
+            out.push_back({{curve_->r[i] + ahead_[i].r, curve_->z[i] + ahead_[i].z}, reach});
         }
         return out;
     }
 
   private:
     const MembraneCurve* curve_;
+    const std::vector<double>* thickness_;
     std::vector<PlanePoint> ahead_;
 };
 
@@ -111,24 +116,22 @@ double follow_after_motion(const Parameters& p) {
 std::vector<RefinedBand> refined_bands(const MembraneCurve& curve, const Parameters& parameters) {
     const auto& p = parameters.phase_field;
     const unsigned int level_of_layer = layer_level(parameters);
-    const double band = p.band_width * p.epsilon, inner = fine_band * p.epsilon, outer = inner + p.cell_size;
-    const Path path(curve, follow_after_motion(parameters));
-    std::vector<RefinedBand> out{{path.of(whole(curve)), level_of_layer, band, band + 2 * p.cell_size}};
+    const auto thickness = thickness_along(curve, parameters);
+    const Path path(curve, thickness, p.epsilon, follow_after_motion(parameters));
+    std::vector<RefinedBand> out;
+    const auto add = [&](const Indices& part, double layers, unsigned int halvings) {
+        out.push_back({path.around(part, layers), level_of_layer + halvings, p.cell_size / (1U << halvings)});
+    };
     const double wanted = edge_cells * parameters.molecules.interface_width;
     const auto edge_levels = static_cast<unsigned int>(std::max(0.0, std::ceil(std::log2(p.cell_size / wanted))));
-    if (edge_levels > 0) out.push_back({path.of(patch_edge(curve)), level_of_layer + edge_levels, inner, outer});
-    const auto thickness = thickness_along(curve, parameters);
-    double thin = p.epsilon / cells_slack, cell = p.cell_size;
-    unsigned int level = level_of_layer;
-    for (Indices part = thin_part(thickness, thin); !part.empty(); part = thin_part(thickness, thin)) {
-        const double reach = p.band_width * thin;
-        out.push_back({path.of(part), ++level, reach, reach + cell});
-        thin /= 2;
-        cell /= 2;
-    }
-    for (unsigned int halvings = 0; halvings < most_neck_levels; ++halvings) {
-        const Indices neck = narrow_part(curve, p.cell_size / (1U << halvings) / neck_cells);
-        if (!neck.empty()) out.push_back({path.of(neck), level_of_layer + halvings + 1, inner, outer});
+    if (edge_levels > 0) add(patch_edge(curve), fine_band, edge_levels);
+    double thin = p.epsilon / cells_slack;
+    unsigned int halvings = 0;
+    for (Indices part = whole(curve); !part.empty(); part = thin_part(thickness, thin), thin /= 2)
+        add(part, p.band_width > 0 ? p.band_width : fine_band, halvings++);
+    for (unsigned int k = 1; k <= most_neck_levels; ++k) {
+        const Indices neck = narrow_part(curve, p.cell_size / (1U << (k - 1)) / neck_cells);
+        if (!neck.empty()) add(neck, fine_band, k);
     }
     return out;
 }

@@ -30,6 +30,28 @@ constexpr std::size_t vectors_of_guess = 2;  // of an Origin, before the solutio
 
 }  // namespace
 
+bool StepSolver::Distrust::may_try() {
+    if (steps_ == 0) return true;
+    --steps_;
+    return false;
+}
+
+void StepSolver::Distrust::note(bool failed) {
+    failures_ = failed ? std::min(failures_ + 1, most_failures) : 0;
+    steps_ = failures_ < 2 ? 0 : 1U << (failures_ - 2);
+}
+
+std::vector<double> StepSolver::Distrust::numbers() const {
+    return {static_cast<double>(failures_), static_cast<double>(steps_)};
+}
+
+StepSolver::Distrust StepSolver::Distrust::from(const std::vector<double>& numbers) {
+    Distrust out;
+    out.failures_ = static_cast<unsigned int>(numbers.at(0));
+    out.steps_ = static_cast<unsigned int>(numbers.at(1));
+    return out;
+}
+
 StepSolver::StepSolver(const Parameters& parameters, const LayerEnergy& energy, MPI_Comm communicator, double wanted)
     : energy_(energy), pattern_(parameters, energy), system_(communicator, "coupled"), wanted_(wanted) {
     const Scales by = scales(parameters);
@@ -108,17 +130,13 @@ bool StepSolver::near_factors(const Problem& problem, const Vector& solution) co
 
 StepSolver::Ending StepSolver::iterate_with_old_factors(const Problem& problem, Vector& solution) {
     if (!system_.has_factors() || !near_factors(problem, solution)) return Ending::slow;
-    if (distrust_.steps > 0) {
-        --distrust_.steps;
-        return Ending::slow;
-    }
+    if (!distrust_of_old_.may_try()) return Ending::slow;
     Ending ending = Ending::diverged;
     try {
         ending = iterate(problem, solution, nullptr);
     } catch (const SolverError&) {  // new factors may serve
     }
-    distrust_.failures = ending == Ending::converged ? 0 : std::min(distrust_.failures + 1, most_failures);
-    distrust_.steps = distrust_.failures < 2 ? 0 : 1U << (distrust_.failures - 2);
+    distrust_of_old_.note(ending != Ending::converged);
     return ending;
 }
 
@@ -135,13 +153,14 @@ StepSolver::Ending StepSolver::iterate_with_new_factors(const Problem& problem, 
 
 void StepSolver::solve(const Space& space, const StepNumbers& numbers, const StepPast& history, Vector& solution) {
     const Origin before = origin_;
-    const Distrust distrust = distrust_;
+    const Distrust of_old = distrust_of_old_, of_single = distrust_of_single_;
     const Precision precision = system_.precision();
     try {
         converge({&space, &numbers, &history}, solution);
     } catch (const Interrupted&) {
         origin_ = before;
-        distrust_ = distrust;
+        distrust_of_old_ = of_old;
+        distrust_of_single_ = of_single;
         system_.use(precision);
         throw;
     }
@@ -158,14 +177,19 @@ void StepSolver::converge(const Problem& problem, Vector& solution) {
     const Ending with_old = iterate_with_old_factors(problem, solution);
     if (with_old == Ending::converged) return;
     if (with_old == Ending::diverged) start_again();
+    if (distrust_of_single_.may_try()) system_.use(Precision::single);
+    const bool single = system_.precision() == Precision::single;
     for (int k = 0; k < most_factorisations; ++k) {
         const Ending ending = iterate_with_new_factors(problem, solution);
-        if (ending == Ending::converged) return;
+        if (ending == Ending::converged) {
+            if (single) distrust_of_single_.note(system_.precision() != Precision::single);
+            return;
+        }
         if (ending == Ending::slow && k == 0) continue;  // one step of Newton's method from the guess was not enough
         if (system_.precision() == Precision::single) {
             start_again();
             ++counts_.single_precision_failed;
-            system_.use(Precision::full);  // until the mesh changes, if it serves
+            system_.use(Precision::full);
         } else if (ending == Ending::diverged) {
             break;
         }
@@ -182,8 +206,8 @@ std::vector<const Vector*> StepSolver::save(Checkpoint& checkpoint) const {
     checkpoint.arrays["solver_counts"] = {
         static_cast<double>(counts_.iterations), static_cast<double>(counts_.factorisations),
         static_cast<double>(counts_.of_double_precision), static_cast<double>(counts_.single_precision_failed)};
-    checkpoint.arrays["factors_distrust"] = {static_cast<double>(distrust_.failures),
-                                             static_cast<double>(distrust_.steps)};
+    checkpoint.arrays["factors_distrust"] = distrust_of_old_.numbers();
+    checkpoint.arrays["single_precision_distrust"] = distrust_of_single_.numbers();
     checkpoint.scalars["factors_rate"] = origin_.rate;
     checkpoint.scalars["factors_speed"] = origin_.speed;
     checkpoint.scalars["factors_molecules"] = origin_.molecules;
@@ -205,12 +229,13 @@ std::size_t StepSolver::saved_vectors(const Checkpoint& checkpoint) {
 void StepSolver::load(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint,
                       const std::vector<Vector>& vectors) {
     if (checkpoint.scalar("factors_full_precision") != 0) system_.use(Precision::full);
-    const auto &counts = checkpoint.array("solver_counts"), &distrust = checkpoint.array("factors_distrust");
+    const auto& counts = checkpoint.array("solver_counts");
     const auto whole = [](double number) { return static_cast<unsigned int>(number); };
     if (!vectors.empty()) factorise_again(space, std::move(numbers), checkpoint, vectors);
     // Without the factors just made.
     counts_ = {whole(counts.at(0)), whole(counts.at(1)), whole(counts.at(2)), whole(counts.at(3))};
-    distrust_ = {whole(distrust.at(0)), whole(distrust.at(1))};
+    distrust_of_old_ = Distrust::from(checkpoint.array("factors_distrust"));
+    distrust_of_single_ = Distrust::from(checkpoint.array("single_precision_distrust"));
 }
 
 void StepSolver::factorise_again(const Space& space, StepNumbers numbers, const Checkpoint& checkpoint,

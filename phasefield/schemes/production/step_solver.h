@@ -67,9 +67,17 @@ class StepSolver {
         std::vector<Vector> vectors;  // the iterate, the guess, the solutions before, newest first
     };
 
-    /// How often in a row factors of earlier steps have failed, and how many steps long they are left alone for it.
-    struct Distrust {
-        unsigned int failures = 0, steps = 0;
+    /// How often in a row something has failed, and how many steps long it is left alone for it.
+    class Distrust {
+      public:
+        /// Whether the next step may try it: asked once per step.
+        [[nodiscard]] bool may_try();
+        void note(bool failed);
+        [[nodiscard]] std::vector<double> numbers() const;
+        static Distrust from(const std::vector<double>& numbers);
+
+      private:
+        unsigned int failures_ = 0, steps_ = 0;
     };
 
     void converge(const Problem& problem, Vector& solution);
@@ -91,7 +99,7 @@ class StepSolver {
     EquationPattern pattern_;
     CondensedSystem system_;
     Origin origin_;
-    Distrust distrust_;
+    Distrust distrust_of_old_, distrust_of_single_;
     Counts counts_;
     double wanted_;
     std::vector<double> least_;  // first increments that count, field by field
