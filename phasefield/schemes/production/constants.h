@@ -73,7 +73,7 @@ inline constexpr Constant constants[] = {
     {"error_part", 0.05, "time.tolerance", "error of one step: the errors of the steps add up"},
     {"safety", 0.85, "", "of the step"},
     {"largest_growth", 1.5, "", "of the step, per step"},
-    {"after_hard_step", 0.8, "", "of the step, at most, where one factorisation did not serve"},
+    {"after_hard_step", 0.8, "", "of a step beyond time.max_step's default, at most, where one factorisation did not serve"},
     {"almost_all", 0.7, "", "of the time left: one step, or ever shorter ones would approach the end"},
     {"tolerated_excess", 2, "", "of the error over its tolerance, beyond which a step is repeated"},
     {"smallest_step", 1e-5, "the first step", "below it the run ends"},
@@ -81,7 +81,7 @@ inline constexpr Constant constants[] = {
     {"largest_motion", 1.5, "ε", "of the membrane in one step"},
     {"longer_steps", 5, "", "than those of time.max_step's default, which the sharp engine has"},
     // Newton's method (step_solver.cpp)
-    {"newton_part", 0.01, "the step's tolerance", "to which Newton's method converges"},
+    {"newton_part", 0.002, "the step's tolerance", "to which Newton's method converges"},
     {"most_iterations", 16, "", "with the same factors: new ones cost more, but help later steps, too"},
     {"seen_enough", 3, "", "iterations after which the number needed is foreseen"},
     {"farthest", 0.25, "ε", "from where the factors were made: beyond they do not serve"},

@@ -241,7 +241,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
         trial_factor_ = std::min(trial_factor_, safety * std::pow(larger, -1 / (1 + static_cast<double>(order()))));
     }
     if (trial_motion_ > 0) trial_factor_ = std::min(trial_factor_, safety * farthest / trial_motion_);
-    if (hard) trial_factor_ = std::min(trial_factor_, after_hard_step);
+    if (hard && tau > longest_step(parameters_)) trial_factor_ = std::min(trial_factor_, after_hard_step);
     StepOutcome outcome{measures.diagnostics, {}, {}};
     if (!std::isfinite(measures.diagnostics.bending_energy))
         outcome.rejection = "the energy is not a number";
