@@ -22,7 +22,8 @@ MembraneCurve InitialMembrane::curve(double spacing) const {
     const double longest = domain_.kind == DomainKind::box
                                ? domain_.radius
                                : std::numbers::pi * std::max(spheroid_.equator, spheroid_.polar);
-    const int intervals = std::max(8, static_cast<int>(std::ceil(longest / spacing)));
+    // Where it divides, round-off does not add a point: the mesh is one for a problem in whatever units.
+    const int intervals = std::max(8, static_cast<int>(std::ceil(longest / spacing * (1 - 1e-9))));
     MembraneCurve out;
     for (int i = 0; i <= intervals; ++i) {
         const double s = static_cast<double>(i) / intervals;

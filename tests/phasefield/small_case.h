@@ -15,7 +15,6 @@ inline Parameters small_case() {
     p.phase_field.epsilon = 2.4;
     p.phase_field.cell_size = 2.5;
     p.phase_field.far_refinements = 2;
-    p.phase_field.band_width = 4.5;  // with less, cells of 10 nm begin within the layer's tail
     return p;
 }
 

@@ -25,6 +25,14 @@ void keep_steps(ProductionScheme& scheme, double& time, int count, double tau) {
     }
 }
 
+/// The small case with a wider band of fine cells: with the default one cells of 10 nm begin 4.2 ε from the membrane,
+/// where first factors of single precision do not serve, and those of double precision follow.
+Parameters well_conditioned_case() {
+    Parameters p = small_case();
+    p.phase_field.band_width = 4.5;
+    return p;
+}
+
 struct Seen {
     double height, energy, dissipation;
 };
@@ -72,7 +80,7 @@ TEST_CASE("Anderson's acceleration finds the directions in which the iteration f
 TEST_CASE("a membrane at rest takes one factorisation and stays at rest", "[newton]") {
     // Flat, without spontaneous curvature, molecules that nothing moves: all changes are round-off, which does not
     // shrink from one iteration to the next.
-    Parameters p = small_case();
+    Parameters p = well_conditioned_case();
     p.membrane.spontaneous_curvature = 0;
     p.molecules.transport = Transport::advection;
     ProductionScheme scheme(p, MPI_COMM_SELF);
@@ -91,7 +99,7 @@ TEST_CASE("a step with the factors of another one ends where its own factors lea
     std::vector<Seen> ends;
     double at_start = 0;
     for (const bool old_factors : {false, true}) {
-        ProductionScheme scheme(small_case(), MPI_COMM_SELF);
+        ProductionScheme scheme(well_conditioned_case(), MPI_COMM_SELF);
         at_start = scheme.start().diagnostics.bending_energy;
         if (old_factors) scheme.attempt(0, 1.1 * tau);
         const unsigned int before = scheme.factorisations();
