@@ -3,12 +3,12 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 #include "phasefield/driver/clearance.h"
 #include "phasefield/driver/history.h"
 #include "phasefield/fem/interruption.h"
+#include "shared/geometry/axisymmetric_spline.h"
 #include "shared/model/membrane_energy.h"
 #include "shared/support/error.h"
 
@@ -140,9 +140,9 @@ void TimeLoop::record(double tau, const StepDiagnostics& diagnostics) {
 double TimeLoop::layer_at_neck() const {
     if (!observables_.neck) return 0;
     const std::vector<double>&r = contour_.curve.r, &z = contour_.curve.z;
-    std::size_t i = 0;  // the first point behind the neck, whose place is a chord length
-    for (double length = 0; i + 1 < r.size() && length < observables_.neck->t; ++i)
-        length += std::hypot(r[i + 1] - r[i], z[i + 1] - z[i]);
+    const std::vector<double> along = chord_length(r, z);
+    const auto behind = std::lower_bound(along.begin(), along.end() - 1, observables_.neck->t) - along.begin();
+    const auto i = static_cast<std::size_t>(behind);
     return scheme_->thickness_at(r[i], z[i]) / observables_.neck->radius;
 }
 

@@ -16,8 +16,8 @@ class InterfaceSystem {
   public:
     using Index = dealii::types::global_dof_index;
 
-    /// Up to `most_dense` unknowns are few; the factors of 2500 take 10¹⁰ operations.
-    InterfaceSystem(MPI_Comm communicator, std::string name, Index most_dense = 2500);
+    /// Up to `most_dense` unknowns are few; the factors of 5000 take 8·10¹⁰ operations.
+    InterfaceSystem(MPI_Comm communicator, std::string name, Index most_dense = 5000);
 
     /// `numbers`: which of all shared unknowns this process has. It numbers those in `owned`, a range.
     void reinit(const dealii::IndexSet& owned, const std::vector<Index>& numbers);
