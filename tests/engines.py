@@ -44,6 +44,11 @@ def options(settings):
     return [word for text in settings for word in ("--set", text)]
 
 
+def launcher(processes):
+    """Words before a command that is to run on several processes, of which there may be more than cores."""
+    return ["mpirun", "-n", str(processes), "--oversubscribe"] if processes > 1 else []
+
+
 def tiny_run(test, name, *settings):
     """Directory (Path) of a run of cases/standard.toml, name being one of TINY; skips the unittest.TestCase when the engine was not built.
 

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "phasefield/layer/initial_membrane.h"
+#include "phasefield/make_scheme.h"
 #include "phasefield/schemes/production/production_scheme.h"
 #include "shared/geometry/observables.h"
 #include "shared/model/time_scale.h"
@@ -91,7 +92,7 @@ TEST_CASE("lengths ten times as large with equal energies change nothing", "[sca
 TEST_CASE("a membrane at rest has the same points in other units, and so the same mesh", "[scale]") {
     // 80 nm are 200 quarters of a cell of 4/3 ε; in doubles 200.00000000000003 of them, ten times as large 200.
     const auto points = [](const Parameters& p) {
-        return InitialMembrane(p).curve(0.25 * (4.0 / 3 * p.phase_field.epsilon)).size();
+        return InitialMembrane(p).curve(0.25 * with_chosen_cells(p).phase_field.cell_size).size();
     };
     CHECK(points(Parameters{}) == 201);
     CHECK(points(scaled(Parameters{}, 10, 1000)) == 201);

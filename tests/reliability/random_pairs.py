@@ -66,8 +66,7 @@ class Command:
         words = [options.program, "run", options.engine, "/dev/null", "-o", directory]
         words += engines.options(engines.texts(settings))
         words += ["--restart"] if self.restart else []
-        launcher = ["mpirun", "-n", self.processes, "--oversubscribe"] if self.processes > 1 else []
-        return [str(word) for word in launcher + words]
+        return engines.launcher(self.processes) + [str(word) for word in words]
 
     def start(self, options, directory):
         self.process = subprocess.Popen(self.words(options, directory), stdout=subprocess.PIPE, stderr=subprocess.PIPE,

@@ -11,7 +11,7 @@ from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
-from engines import COARSE, options, texts  # noqa: E402
+from engines import COARSE, launcher, options, texts  # noqa: E402
 from scratch import scratch_directory  # noqa: E402
 
 PROGRAM = None
@@ -33,8 +33,7 @@ TOLERANCES = {
 def history(directory, processes):
     words = [PROGRAM, "run", "phase-field", "/dev/null", "-o", str(directory), "--until", str(END)]
     words += options((*texts(COARSE["phase-field"]), "output.field_interval=0"))
-    launcher = ["mpirun", "-n", str(processes), "--oversubscribe"] if processes > 1 else []
-    subprocess.run([*launcher, *words], check=True, capture_output=True, timeout=1200)
+    subprocess.run(launcher(processes) + words, check=True, capture_output=True, timeout=1200)
     with open(directory / "history.csv", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
