@@ -5,6 +5,7 @@ command line, study or parameter; 3 no run succeeded, or too few alike; 4 input 
 again to continue).
 """
 
+import argparse
 import sys
 from pathlib import Path
 
@@ -18,10 +19,24 @@ from .options import positive_integer, runs_parser
 WRITTEN_SAMPLES = 4000
 
 
+class Keys(argparse.Action):
+    """Prints the keys of a study and ends, as --help does."""
+
+    def __init__(self, option_strings, dest, **how):
+        super().__init__(option_strings, argparse.SUPPRESS, nargs=0, **how)
+
+    def __call__(self, parser, *_):
+        from comparisons.inference.study_keys import documentation
+
+        print(documentation(), end="")
+        parser.exit()
+
+
 def parsed(arguments):
     """The command line as a namespace."""
     description = "Infer parameters from data: best fit, posterior, what the data separate."
     parser = runs_parser("infer", description, "out/STUDY/infer")
+    parser.add_argument("--keys", action=Keys, help="print every key of a study as a table and end")
     parser.add_argument("study", metavar="STUDY.toml", type=Path, help="case, unknowns with priors, data with errors")
     parser.add_argument(
         "--calibrate", metavar="N", type=positive_integer, help="do N cases with known truth as well: ranks and coverage"
@@ -123,6 +138,35 @@ def summary_lines(results, output):
     return [*lines, f"report  {output / 'report.html'}"]
 
 
+def resolved(study, settings=()):
+    """Parameters of a study's case with its own and other settings. Raises StudyError that begins with the study's path."""
+    from comparisons.inference.simulator import settings_of
+    from comparisons.studies.members import resolved_parameters
+
+    try:
+        return resolved_parameters(program(), study.case, [*settings_of(study.settings), *settings])
+    except StudyError as error:
+        raise StudyError(f"{study.path}: {error}", error.exit_code) from None
+
+
+def check_limits(problem):
+    """Raises StudyError where a run at a limit of an unknown's prior, the others in their middle, is refused."""
+    import numpy as np
+
+    middle = np.array([prior.from_fraction(0.5) for prior in problem.priors[: problem.engine_count]])
+    for number, limits in enumerate(problem.limits[: problem.engine_count]):
+        for limit in limits:
+            point = middle.copy()
+            point[number] = limit
+            own = problem.settings(point)
+            try:
+                resolved(problem.study, [f"{key}={text}" for key, text in own.items()])
+            except StudyError as error:
+                value = float(problem.priors[number].value(limit))
+                what = f"its prior allows {value:.6g}: {str(error).removeprefix(f'{problem.study.path}: ')}"
+                raise StudyError(f"{problem.study.path}: unknown {problem.names[number]}: {what}", error.exit_code) from None
+
+
 def run(options):
     """Run the command; returns its exit code."""
     from comparisons.inference.problem import Problem
@@ -133,7 +177,7 @@ def run(options):
     from comparisons.measures.metrics import flat_parameters
     from comparisons.page.inference_page import inference_html
     from comparisons.studies.member_runner import Interruption
-    from comparisons.studies.members import parameter_units, read_record, resolved_parameters
+    from comparisons.studies.members import parameter_units, read_record
 
     study = read_study(options.study)
     if not study.data and not study.contours and not options.sensitivity:
@@ -143,9 +187,9 @@ def run(options):
     if options.truth and not options.calibrate:
         raise StudyError("--truth needs --calibrate N: how often regions hold it", BAD_INPUT)
     output = options.output or Path("out") / options.study.stem / "infer"
-    settings = [f"{key}={str(value).lower() if isinstance(value, bool) else value}" for key, value in study.settings.items()]
-    parameters = resolved_parameters(program(), study.case, settings)
+    parameters = resolved(study)
     problem, units = Problem(study, parameters), parameter_units(program())
+    check_limits(problem)
     with lock(output), Interruption() as interruption:
         simulator = Simulator(problem, program(), output, options.jobs, options.processes, interruption)
         results = {

@@ -7,7 +7,6 @@ from scipy.optimize import least_squares
 
 from comparisons.errors import RUN_FAILED, StudyError
 from comparisons.inference.batch import batch_of
-from comparisons.inference.problem import MISSING
 
 #: Step of a finite difference in a prior's coordinate, far above the noise of a run's error control.
 STEP = 0.02
@@ -15,6 +14,10 @@ STEP = 0.02
 #: The iteration ends when the sum of squares falls by less than this fraction, or the point moves by less.
 TOLERANCE = 1e-4
 MOST_EVALUATIONS = 25
+
+#: A number that a run lacks counts as this times all that the start misses the data by, or as LEAST_PENALTY errors at least: a
+#: step to a run that lacks more is never taken, however far off the others are.
+PENALTY, LEAST_PENALTY = 2.0, 30.0
 
 #: Distance that a start keeps from the limits.
 MARGIN = 1e-3
@@ -25,8 +28,9 @@ STARTS = (0.5, 0.15, 0.85)
 
 @dataclass(frozen=True)
 class Fit:
-    """x (unknowns,): coordinates; course: of its run; residuals (data,): in errors; jacobian (data, unknowns): d residual/dx;
-    precision (unknowns, unknowns): inverse covariance in x, with the priors'; evaluations of the model."""
+    """x (unknowns,): coordinates; course: of its run; residuals (data,): in errors, nan where the run has no such number;
+    jacobian (data, unknowns): d residual/dx, 0 there; precision (unknowns, unknowns): inverse covariance in x, with the
+    priors'; evaluations of the model."""
 
     x: np.ndarray
     course: object
@@ -43,7 +47,7 @@ class Fit:
     @property
     def chi_square(self):
         """Sum of squares of the residuals."""
-        return float(np.sum(self.residuals**2))
+        return float(np.nansum(self.residuals**2))
 
 
 def best_fit(problem, simulator, starts):
@@ -52,11 +56,33 @@ def best_fit(problem, simulator, starts):
     for point, course in zip(starts, simulator.courses(starts)):
         if course is not None:
             x = settled(problem, course, point)
-            candidates.append((np.sum(residuals(problem, course, x) ** 2), x))
+            candidates.append((*misfit(residuals(problem, course, x)), x))
     if not candidates:
         raise StudyError("no run of the first ones succeeded; narrow the priors", RUN_FAILED)
-    start = min(candidates, key=lambda entry: entry[0])[1]
-    model = _Model(problem, simulator)
+    missing, size, start = min(candidates, key=lambda entry: entry[:2])
+    model, found = _fitted(problem, simulator, start, size)
+    if missing:  # beside the penalty, what the others miss by was little
+        again = residuals(problem, model.course(found.x), found.x)
+        model, found = _fitted(problem, simulator, found.x, misfit(again)[1])
+    course = model.course(found.x)
+    last = residuals(problem, course, found.x)
+    if np.isnan(last).all():
+        raise StudyError("no run has what was measured (a neck, budding); check the data's times and the priors", RUN_FAILED)
+    jacobian = model.jacobian(found.x)[: len(problem.data)]
+    jacobian[np.isnan(last)] = 0
+    return Fit(
+        found.x,
+        course,
+        last,
+        jacobian,
+        jacobian.T @ jacobian + prior_precision(problem),
+        found.nfev,
+    )
+
+
+def _fitted(problem, simulator, start, size):
+    """(_Model, result of least_squares) from a start whose residuals have the sum of squares `size`."""
+    model = _Model(problem, simulator, max(LEAST_PENALTY, PENALTY * np.sqrt(size)))
     low, high = problem.limits.T
     found = least_squares(
         model.residuals,
@@ -68,25 +94,19 @@ def best_fit(problem, simulator, starts):
         gtol=TOLERANCE,
         max_nfev=MOST_EVALUATIONS,
     )
-    course = model.course(found.x)
-    if course is None or np.all(residuals(problem, course, found.x) >= MISSING):
-        raise StudyError("no run has what was measured (a neck, budding); check the data's times and the priors", RUN_FAILED)
-    jacobian = model.jacobian(found.x)[: len(problem.data)]
-    return Fit(
-        found.x,
-        course,
-        residuals(problem, course, found.x),
-        jacobian,
-        jacobian.T @ jacobian + prior_precision(problem),
-        found.nfev,
-    )
+    return model, found
 
 
 def residuals(problem, course, x):
-    """(data,) of one course at coordinates (unknowns,)."""
+    """(data,) of one course at coordinates (unknowns,); nan where it has no such number, or there is no course."""
     if course is None:
-        return np.full(len(problem.data), MISSING)
+        return np.full(len(problem.data), np.nan)
     return problem.residuals(batch_of([course]), x[None, :])[0]
+
+
+def misfit(found):
+    """(how many residuals (data,) are missing, sum of squares of the others)."""
+    return int(np.isnan(found).sum()), float(np.nansum(found**2))
 
 
 def prior_precision(problem):
@@ -103,30 +123,42 @@ def settled(problem, course, point):
     best = None
     for fraction in STARTS:
         start = np.array([prior.from_fraction(fraction) for prior in problem.priors[count:]])
-        found = least_squares(lambda free: residuals(problem, course, np.append(point, free)), start, bounds=(low, high))
+        found = least_squares(
+            lambda free: np.nan_to_num(residuals(problem, course, np.append(point, free))), start, bounds=(low, high)
+        )
         best = found if best is None or found.cost < best.cost else best
     return np.append(point, best.x)
 
 
 class _Model:
-    """Residuals and Jacobian for least_squares; normal priors count as data."""
+    """Residuals and Jacobian for least_squares; normal priors count as data, a missing residual as the penalty."""
 
-    def __init__(self, problem, simulator):
-        self.problem, self.simulator = problem, simulator
+    def __init__(self, problem, simulator, penalty):
+        self.problem, self.simulator, self.penalty = problem, simulator, penalty
         self.normal = np.array([prior.gaussian for prior in problem.priors])
 
     def course(self, x):
         return self.simulator.courses(x[None, : self.problem.engine_count])[0]
 
     def residuals(self, x):
-        return np.append(residuals(self.problem, self.course(x), x), x[self.normal])
+        found = residuals(self.problem, self.course(x), x)
+        return np.append(np.where(np.isnan(found), self.penalty, found), x[self.normal])
 
     def jacobian(self, x):
-        """Forward differences, backward at an upper limit; all runs at once."""
-        count, base = self.problem.engine_count, residuals(self.problem, self.course(x), x)
+        """Forward differences, backward at an upper limit or where a number is lost; all runs at once."""
+        base = residuals(self.problem, self.course(x), x)
         steps = np.where(x + STEP <= self.problem.limits[:, 1], STEP, -STEP)
-        moved = x + np.diag(steps)
-        courses = self.simulator.courses(moved[:count, :count]) if count else []
+        moved = self._moved(x, steps)
+        lost = np.isnan(moved) & ~np.isnan(base)[:, None]
+        if lost.any():
+            other = np.where(lost.any(axis=0), -steps, steps)
+            moved, steps = np.where(lost, self._moved(x, other), moved), np.where(lost, -steps, steps)
+        change = np.where(np.isnan(moved), 0.0, (moved - np.where(np.isnan(base), self.penalty, base)[:, None]) / steps)
+        return np.vstack((change, np.eye(len(x))[self.normal]))
+
+    def _moved(self, x, steps):
+        """Residuals (data, unknowns) at x with one coordinate moved by its step."""
+        count, points = self.problem.engine_count, x + np.diag(steps)
+        courses = self.simulator.courses(points[:count, :count]) if count else []
         courses += [self.course(x)] * (len(x) - count)
-        columns = [(residuals(self.problem, c, at) - base) / h for c, at, h in zip(courses, moved, steps)]
-        return np.vstack((np.column_stack(columns), np.eye(len(x))[self.normal]))
+        return np.column_stack([residuals(self.problem, course, at) for course, at in zip(courses, points)])

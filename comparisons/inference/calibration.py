@@ -15,7 +15,7 @@ import endoflow
 from comparisons.errors import BAD_INPUT, StudyError
 from comparisons.inference.batch import batch_of
 from comparisons.inference.best_fit import prior_precision
-from comparisons.inference.course import course_of
+from comparisons.inference.course import CourseError, course_of
 from comparisons.inference.sampling import Density, ensemble, highest_density_level
 from comparisons.inference.training import slopes
 
@@ -48,9 +48,9 @@ def truth_of_run(problem, directory):
     """(coordinates (unknowns,), Course) of a run of either engine, made outside of the study. Raises StudyError."""
     try:
         run = endoflow.load(directory)
-    except endoflow.EndoflowError as error:
-        raise StudyError(str(error), BAD_INPUT) from None
-    return problem.coordinates(run.parameters), course_of(run, problem.columns, problem.contours)
+        return problem.coordinates(run.parameters), course_of(run, problem.columns, problem.contours)
+    except (endoflow.EndoflowError, CourseError) as error:
+        raise StudyError(f"--truth {directory}: {error}", BAD_INPUT) from None
 
 
 def calibrate(problem, trained, truth, course, seed):

@@ -35,12 +35,21 @@ class Course:
     second: dict
 
 
+class CourseError(ValueError):
+    """A run that makes no course."""
+
+
 def course_of(run, columns, contours=()):
-    """The Course of an endoflow.Run with some columns of its history and the distances of contours' points."""
+    """The Course of an endoflow.Run with some columns of its history and the distances of contours' points.
+
+    Raises CourseError for a run that has not moved on from its start.
+    """
     history = run.history
     time, budding = history["time_us"], run.event_time("budding")
     end = float(time[-1]) if budding is None else budding
     onset = neck_onset(time, history["neck_radius_nm"], history["bud_diameter_nm"])
+    if onset is not None and not np.any(np.isfinite(history["neck_radius_nm"]) & (time > onset[0]) & (time <= end)):
+        onset = None  # born with the last row: a stage that lasts no time has no course
     outcome = NO_NECK if onset is None else NECK if budding is None else BUDDED
     neck_time = end if onset is None else onset[0]
     first_times = neck_time * FIRST_GRID
@@ -52,12 +61,10 @@ def course_of(run, columns, contours=()):
             if onset is not None:
                 factor = 1 if column == "neck_radius_nm" else 2
                 known &= time > neck_time
-                curve = PchipInterpolator(
-                    np.append(neck_time, time[known]), np.append(factor * onset[1], history[column][known])
-                )
+                curve = _curve(np.append(neck_time, time[known]), np.append(factor * onset[1], history[column][known]))
                 second[column] = curve(second_times)
             continue
-        curve = PchipInterpolator(time[known], history[column][known], extrapolate=True)
+        curve = _curve(time[known], history[column][known])
         first[column] = curve(first_times)
         if onset is not None:
             second[column] = curve(second_times)
@@ -68,6 +75,14 @@ def course_of(run, columns, contours=()):
             if onset is not None:
                 second[name] = np.interp(second_times, times, values)
     return Course(outcome, neck_time, end, first, second)
+
+
+def _curve(time, values):
+    """Through rows at times that increase or stay; of rows at one time the last one counts. Raises CourseError."""
+    kept = np.append(np.diff(time) > 0, True) if len(time) else np.zeros(0, dtype=bool)
+    if kept.sum() < 2:
+        raise CourseError("the run holds no two moments of what is measured")
+    return PchipInterpolator(time[kept], values[kept], extrapolate=True)
 
 
 def neck_onset(time, neck, diameter):

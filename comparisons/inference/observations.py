@@ -1,25 +1,20 @@
 """Measured numbers with their errors: curves against time, times of events, contours."""
 
-import csv
+import dataclasses
 import math
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
 import endoflow
-
-#: Columns of history.csv that may be data.
-QUANTITIES = (
-    "neck_radius_nm",
-    "bud_diameter_nm",
-    "bud_height_nm",
-    "membrane_area_nm2",
-    "volume_extracellular_nm3",
-)
+from comparisons.inference.csv_table import Layout, read_table
+from comparisons.inference.study_keys import QUANTITIES
 
 #: Quantities that exist only while there is a neck.
 WITH_NECK = ("neck_radius_nm", "bud_diameter_nm")
+
+#: The one quantity that may be negative; the others are sizes.
+SIGNED = ("bud_height_nm",)
 
 #: Events, by the name of what an event's datum is compared with.
 EVENTS = {"budding": "budding_time_us"}
@@ -28,29 +23,32 @@ EVENTS = {"budding": "budding_time_us"}
 @dataclass(frozen=True)
 class Datum:
     """One number. column: what it is, error: its standard deviation; time: µs, nan for an event; time_name: the unknown
-    that is its time where none was measured, or ""."""
+    that is its time where none was measured, or ""; place: where it was read, for messages."""
 
     column: str
     time: float
     value: float
     error: float
     time_name: str = ""
+    place: str = ""
 
 
 @dataclass(frozen=True)
 class Contour:
-    """An outline r, z (points,) in nm, z from the level of the rim, with its error in nm.
+    """An outline r, z (points,) in nm with its error in nm, z from the level of the rim or, from_floor, from the box's floor.
 
-    time: µs, or None for one whose time is unknown, between low and high.
+    time: µs, or None for one whose time is unknown, between low and high; places: where each point was read, for messages.
     """
 
     number: int
     r: np.ndarray
     z: np.ndarray
+    from_floor: bool
     error: float
     time: float | None
     low: float
     high: float
+    places: tuple
 
     @property
     def time_name(self):
@@ -67,7 +65,7 @@ class Contour:
         """Its points as data: the distances from the membrane are to be zero."""
         time = math.nan if self.time is None else self.time
         name = self.time_name if self.time is None else ""
-        return [Datum(column, time, 0.0, self.error, name) for column in self.columns]
+        return [Datum(column, time, 0.0, self.error, name, place) for column, place in zip(self.columns, self.places)]
 
 
 def error_column(quantity):
@@ -76,103 +74,116 @@ def error_column(quantity):
     return f"{stem}_error_{unit}"
 
 
-def table(path, needed, allowed):
-    """A CSV with a line of heads as {head: (rows,) array}, nan for empty cells. Raises ValueError naming line and column."""
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
-    except (OSError, UnicodeDecodeError) as error:
-        raise ValueError(f"{path}: {getattr(error, 'strerror', None) or 'is no text in UTF-8'}") from None
-    heads = [head.strip() for head in rows[0]] if rows else []
-    missing, unknown = [head for head in needed if head not in heads], [head for head in heads if head not in allowed]
-    if missing or unknown:
-        what = f"lacks the column {missing[0]}" if missing else f"has an unknown column {unknown[0]!r}"
-        raise ValueError(f"{path}: {what}; known: {', '.join(allowed)}")
-    columns = {head: [] for head in heads}
-    for number, row in enumerate(rows[1:], start=2):
-        if len(row) != len(heads):
-            raise ValueError(f"{path}: row {number} has {len(row)} cells where the heads are {len(heads)}")
-        for head, cell in zip(heads, row):
-            try:
-                columns[head].append(float(cell) if cell.strip() else math.nan)
-            except ValueError:
-                raise ValueError(f"{path}: row {number}, column {head}: {cell!r} is no number") from None
-    return {head: np.array(values) for head, values in columns.items()}
+def layout_of(keys, where):
+    """The Layout that the keys of a [[data]] (dict) say. Raises ValueError."""
+    names = {field.name for field in dataclasses.fields(Layout)}
+    found = Layout(where=where, **{name: value for name, value in keys.items() if name in names})
+    if (found.length_unit == "pixel") != (found.pixel_nm is not None):
+        raise ValueError('pixel_nm and length_unit = "pixel" need each other')
+    return found
 
 
-def history_data(folder, entry):
+def history_data(folder, keys, where):
     """The Data of `file = …`: columns time_us, a quantity or more, and their errors unless `error` gives one for all."""
-    path = folder / entry["file"]
+    path = folder / keys["file"]
     allowed = ("time_us", *(name for quantity in QUANTITIES for name in (quantity, error_column(quantity))))
-    columns = table(path, ("time_us",), allowed)
+    table = read_table(path, ("time_us",), allowed, layout_of(keys, where))
     found = []
-    for quantity in (name for name in QUANTITIES if name in columns):
-        errors = columns.get(error_column(quantity))
+    for quantity in QUANTITIES:
+        name = error_column(quantity)
+        if quantity not in table.columns:
+            if name in table.columns:
+                raise ValueError(f"{path}: has {name} without {quantity}")
+            continue
+        errors = table.columns.get(name)
         if errors is None:
-            if "error" not in entry:
-                raise ValueError(f"{path}: needs a column {error_column(quantity)}, or error = … beside file")
-            errors = np.full(len(columns["time_us"]), float(entry["error"]))
-        found += _data(quantity, columns["time_us"], columns[quantity], errors, path)
+            if keys["error"] is None:
+                raise ValueError(f"{path}: needs a column {name}, or error = … beside file")
+            errors = np.full(len(table.lines), keys["error"])
+        found += _curve(table, quantity, errors)
     if not found:
         raise ValueError(f"{path}: holds no number; known columns: {', '.join(allowed)}")
     return found
 
 
-def run_data(folder, entry):
-    """The Data of `run = DIR`: points of a run's curves at equal intervals of time, each with the error `error`."""
-    try:
-        run = endoflow.load(folder / entry["run"])
-    except endoflow.EndoflowError as error:
-        raise ValueError(str(error)) from None
-    names = entry.get("columns", ["neck_radius_nm"])
-    unknown = [name for name in names if name not in QUANTITIES]
-    if unknown:
-        raise ValueError(f"columns: {unknown[0]!r} is none of {', '.join(QUANTITIES)}")
-    if "error" not in entry:
-        raise ValueError("needs error = …, the standard deviation of each number in the unit of its column")
-    present = np.all([np.isfinite(run.history[name]) for name in names], axis=0)
-    if not present.any():
-        raise ValueError(f"{run.directory}: never has {' and '.join(names)}")
-    span = run.history["time_us"][present]
-    end = min(span[-1], run.event_time("budding") or math.inf)
-    first, last = max(span[0], entry.get("from", span[0])), min(end, entry.get("to", end))
-    times = np.linspace(first, last, int(entry.get("points", 30)))
-    errors = np.full(len(times), float(entry["error"]))
-    return [datum for name in names for datum in _data(name, times, run.history_at(name, times), errors, run.directory)]
-
-
-def event(_folder, entry):
-    """The Datum of `event = "budding"`."""
-    name = entry["event"]
-    if name not in EVENTS:
-        raise ValueError(f"event = {name!r}: known: {', '.join(EVENTS)}")
-    if "time_us" not in entry or "error_us" not in entry:
-        raise ValueError("an event needs time_us and error_us")
-    return _data(EVENTS[name], [math.nan], [float(entry["time_us"])], [float(entry["error_us"])], f"event {name}")
-
-
-def contour(path, entry, number):
-    """The Contour of `contour = FILE`: columns r_nm, z_nm."""
-    columns = table(path, ("r_nm", "z_nm"), ("r_nm", "z_nm"))
-    error = float(entry.get("error_nm", 0))
-    if not error > 0:
-        raise ValueError(f"{path}: needs error_nm, the standard deviation of its points, greater than 0")
-    if not len(columns["r_nm"]) or not all(np.isfinite(values).all() for values in columns.values()):
-        raise ValueError(f"{path}: needs points, each with r_nm and z_nm")
-    time = entry.get("time_us")
-    if time is None and not 0 <= entry.get("low_us", 0) < entry.get("high_us", -1):
-        raise ValueError(f"{path}: needs time_us, or high_us (and low_us), between which its time is sought")
-    limits = float(entry.get("low_us", 0)), float(entry.get("high_us", 0))
-    return Contour(number, columns["r_nm"], columns["z_nm"], error, None if time is None else float(time), *limits)
-
-
-def _data(column, times, values, errors, source):
-    """Data of the cells that are not empty."""
+def _curve(table, quantity, errors):
+    """Data of the rows of a Table that have a quantity."""
     found = []
-    for time, value, error in zip(times, values, errors):
+    for row, (time, value, error) in enumerate(zip(table.columns["time_us"], table.columns[quantity], errors)):
         if math.isnan(value):
             continue
-        if not error > 0:
-            raise ValueError(f"{Path(source).name}: {column} = {value:g} has the error {error:g}; it must be greater than 0")
-        found.append(Datum(column, float(time), float(value), float(error)))
+        place = table.place(row)
+        if math.isnan(time):
+            raise ValueError(f"{place}: time_us is empty, though {quantity} = {value:g}; leave both empty or none")
+        if not 0 < error < math.inf:
+            what = "is empty" if math.isnan(error) else f"= {error:g}"
+            raise ValueError(f"{place}: {error_column(quantity)} {what}; it must be greater than 0, a standard deviation")
+        if value <= 0 and quantity not in SIGNED:
+            raise ValueError(f"{place}: {quantity} = {value:g} must be greater than 0; leave the cell empty where there is none")
+        found.append(Datum(quantity, float(time), float(value), float(error), place=place))
     return found
+
+
+def run_data(folder, keys, where):
+    """The Data of `run = DIR`: points of a run's curves at equal intervals of time, each with the error `error`."""
+    try:
+        run = endoflow.load(folder / keys["run"])
+    except endoflow.EndoflowError as error:
+        raise ValueError(str(error)) from None
+    names, error = keys["columns"], keys["error"]
+    lacking = [name for name in names if name not in run.history]
+    if lacking:
+        raise ValueError(f"columns: {run.directory} has no {lacking[0]}")
+    present = np.all([np.isfinite(run.history[name]) for name in names], axis=0)
+    if not present.any():
+        raise ValueError(f"columns: {run.directory} never has {' and '.join(names)}")
+    span = run.history["time_us"][present]
+    budding = run.event_time("budding")
+    end = span[-1] if budding is None else min(span[-1], budding)
+    first = span[0] if keys["from"] is None else max(span[0], keys["from"])
+    last = end if keys["to"] is None else min(end, keys["to"])
+    if not first <= last:
+        allowed = f"{run.directory} has {' and '.join(names)} from {span[0]:g} to {end:g} µs"
+        key = "from" if keys["to"] is None or keys["to"] > span[0] else "to"
+        raise ValueError(f"{key} = {keys[key]:g}: leaves no time; {allowed}")
+    times = np.linspace(first, last, keys["points"])
+    return [
+        Datum(name, float(time), float(value), error, place=f"{where}: {run.directory}")
+        for name in names
+        for time, value in zip(times, run.history_at(name, times))
+        if np.isfinite(value)
+    ]
+
+
+def event(_folder, keys, where):
+    """The Datum of `event = "budding"`."""
+    return [Datum(EVENTS[keys["event"]], math.nan, keys["time_us"], keys["error_us"], place=f"{where}: event")]
+
+
+def contour(folder, keys, where, number):
+    """The Contour of `contour = FILE`: columns r_nm, z_nm."""
+    path, time = folder / keys["contour"], keys["time_us"]
+    if time is None and keys["high_us"] is None:
+        raise ValueError("needs time_us, or high_us (and low_us), between which its time is sought")
+    if time is not None and keys["high_us"] is not None:
+        raise ValueError("has time_us and high_us; leave out high_us where its time is known")
+    if time is None and not keys["low_us"] < keys["high_us"]:
+        raise ValueError(f"low_us = {keys['low_us']:g} must be below high_us = {keys['high_us']:g}")
+    names = ("r_nm", "z_nm")
+    table = read_table(path, names, names, layout_of(keys, where))
+    r, z = (table.columns[name] for name in names)
+    if not len(r):
+        raise ValueError(f"{path}: holds no point")
+    for row in range(len(r)):
+        empty = [name for name in names if math.isnan(table.columns[name][row])]
+        if empty:
+            raise ValueError(f"{table.place(row)}: {empty[0]} is empty; a point needs r_nm and z_nm")
+    if keys["half_planes"] == "both":
+        r = np.abs(r)
+    negative = np.nonzero(r < 0)[0]
+    if negative.size:
+        what = f"r_nm = {r[negative[0]]:g} is left of the axis"
+        raise ValueError(f'{table.place(negative[0])}: {what}; say half_planes = "both", which mirrors such points, in {where}')
+    places = tuple(table.place(row) for row in range(len(r)))
+    limits = keys["low_us"], keys["high_us"] or 0.0
+    return Contour(number, r, z, keys["z_from"] == "floor", keys["error_nm"], time, *limits, places)

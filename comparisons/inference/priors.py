@@ -76,6 +76,17 @@ def prior_of(kind, numbers):
     missing = [key for key in KINDS[kind] if key not in numbers]
     if missing:
         raise PriorError(f"prior = {kind!r} needs {' and '.join(missing)}")
+    others = [key for key in numbers if key not in (*KINDS[kind], "low", "high")]
+    if others:
+        raise PriorError(f"{others[0]} = {numbers[others[0]]:g}: prior = {kind!r} has no {others[0]}; it has {', '.join(KINDS[kind])}")
+    found = _prior(kind, numbers)
+    if not np.isfinite([found.scale, *found.value(np.array([found.lowest, found.highest]))]).all():
+        raise PriorError(f"prior = {kind!r} reaches beyond the largest number, 1.8e308; take narrower limits")
+    return found
+
+
+def _prior(kind, numbers):
+    """The Prior of a kind whose keys are there."""
     logarithmic = kind.startswith("log")
     if kind.endswith("uniform"):
         low, high = (_inner(numbers[key], key, logarithmic) for key in ("low", "high"))
@@ -90,8 +101,8 @@ def prior_of(kind, numbers):
     limits = {"low": -REACH, "high": REACH}
     for key in limits.keys() & numbers.keys():
         limits[key] = (_inner(numbers[key], key, logarithmic) - centre) / scale
-    if not limits["low"] < limits["high"]:
-        raise PriorError("low and high leave nothing of the prior")
+    if not limits["low"] < limits["high"] or limits["low"] >= REACH or limits["high"] <= -REACH:
+        raise PriorError(f"low and high leave nothing of the prior, {centre_key} = {numbers[centre_key]:g} with {width_key} = {width:g}")
     return Prior(logarithmic, True, centre, scale, limits["low"], limits["high"])
 
 

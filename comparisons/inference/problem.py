@@ -4,33 +4,39 @@ Coordinates x (n, unknowns) are those of the priors. The first `engine_count` un
 others (a pure slowing down, a shift of time, times of contours) act on a finished course.
 """
 
+import difflib
+
 import numpy as np
 
 from comparisons.errors import BAD_INPUT, StudyError
 from comparisons.inference.batch import values_at, within_course
 from comparisons.inference.course import BUDDED
-from comparisons.inference.observations import EVENTS, QUANTITIES
+from comparisons.inference.data_checks import checked
+from comparisons.inference.observations import EVENTS
 from comparisons.inference.study_file import MOST_UNKNOWNS, is_exact_time_scale
+from comparisons.inference.study_keys import QUANTITIES
 from comparisons.measures.metrics import flat_parameters
 
-#: What stands for (prediction − value)/error where the model has no such number.
-MISSING = 30.0
+#: Largest (prediction − value)/error, in size.
+LARGEST_RESIDUAL = 1e6
 
 #: Digits of a parameter: a run is found again by them.
 DIGITS = 10
 
 
 class Problem:
-    """A StudyFile with the resolved parameters of its case. Raises StudyError for unknowns the case does not have."""
+    """A StudyFile with the resolved parameters of its case. Raises StudyError for unknowns that the case does not have and
+    data that its runs cannot have."""
 
     def __init__(self, study, parameters):
-        self.study, self.parameters = study, parameters
-        self.base = flat_parameters(parameters)
         exact = [u for u in study.unknowns if is_exact(u, parameters)]
+        self.study = study = checked(study, parameters, exact)
+        self.parameters, self.base = parameters, flat_parameters(parameters)
         self.unknowns = [*(u for u in study.unknowns if u not in exact), *exact]
         self.engine_count = len(self.unknowns) - len(exact)
         if self.engine_count > MOST_UNKNOWNS:
-            raise StudyError(f"{self.engine_count} unknowns need runs; at most {MOST_UNKNOWNS} are possible", BAD_INPUT)
+            what = f"{self.engine_count} unknowns need runs; at most {MOST_UNKNOWNS} are possible"
+            raise StudyError(f"{study.path}: {what}", BAD_INPUT)
         self.names = [unknown.name for unknown in self.unknowns]
         self.priors = [unknown.prior for unknown in self.unknowns]
         self.limits = np.array([(prior.lowest, prior.highest) for prior in self.priors])
@@ -44,11 +50,14 @@ class Problem:
         self._check()
 
     def _check(self):
+        numbers = [key for key, value in self.base.items() if isinstance(value, (int, float)) and not isinstance(value, bool)]
         for unknown in self.unknowns[: self.engine_count]:
             for key in (unknown.key, *unknown.scales, *unknown.divides):
-                if key and (isinstance(self.base.get(key), (bool, str)) or key not in self.base):
-                    what = f"{key} is no parameter with a number; see endoflow params"
-                    raise StudyError(f"unknown {unknown.name}: {what}", BAD_INPUT)
+                if key and key not in numbers:
+                    near = difflib.get_close_matches(key, numbers, 1)
+                    hint = f"did you mean {near[0]}?" if near and key not in self.base else "see endoflow params"
+                    what = f"{key} is no parameter with a number; {hint}"
+                    raise StudyError(f"{self.study.path}: unknown {unknown.name}: {what}", BAD_INPUT)
 
     @property
     def columns(self):
@@ -112,6 +121,11 @@ class Problem:
                 found[:, indices] = values_at(batch, column, time)
         return found
 
+    def known(self, batch):
+        """Whether the courses of a batch, all of one outcome, have the quantity of each datum (data,)."""
+        columns = {*batch.first, *batch.second, *(EVENTS.values() if batch.outcome == BUDDED else ())}
+        return np.array([datum.column in columns for datum in self.data], dtype=bool)
+
     def covered(self, batch, x):
         """Whether each datum (n, data) lies within the course, where the model has such a number."""
         found = np.ones((len(x), len(self.data)), dtype=bool)
@@ -133,10 +147,10 @@ class Problem:
                 time = np.array([[self.data[i].time for i in indices]])
             yield time_name, indices, column, np.broadcast_to((time - offset) / factor, (len(x), len(indices)))
 
-    def residuals(self, batch, x, errors=None):
-        """(n, data): (prediction − value)/error, MISSING where there is no prediction; errors: (data,), the data's own if None."""
-        scaled = (self.predictions(batch, x) - self.values) / (self.errors if errors is None else errors)
-        return np.where(np.isfinite(scaled), np.clip(scaled, -1e6, 1e6), MISSING)
+    def residuals(self, batch, x):
+        """(n, data): (prediction − value)/error, nan where there is no prediction."""
+        scaled = (self.predictions(batch, x) - self.values) / self.errors
+        return np.clip(scaled, -LARGEST_RESIDUAL, LARGEST_RESIDUAL)
 
 
 def is_exact(unknown, parameters):

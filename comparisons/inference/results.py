@@ -7,12 +7,13 @@ infer.json:
     runs                  {total, failed, alarmed, first_alarm}: of the engine, also those of earlier calls; alarmed ones left
                           the bounds of an accurate run
     warnings              [text]
-    unknowns              [{name, unit, best, linear_low, linear_high, median, low, high, prior_low, prior_high, needs_runs}]:
-                          best fit with the 90 % interval of the linearised posterior, posterior median with its 90 % interval
+    unknowns              [{name, unit, best, linear_low, linear_high, median, low, high, prior_low, prior_high, at_limit,
+                          needs_runs}]: best fit with the 90 % interval of the linearised posterior, posterior median with its
+                          90 % interval, whether the best fit lies at a limit of the prior
     covariance            of the unknowns at the best fit, linearised, in the order of `unknowns`; of logarithms where the prior
                           is logarithmic
     fit                   {chi_square, degrees_of_freedom, p_value, evaluations, outcome, data, outside}: `outside` data have no
-                          counterpart in the run
+                          counterpart in the run; those without any number there count neither for χ² nor for the degrees
     directions            [{combination, deviation, shrinkage, verdict, vector}], see comparisons/inference/identifiability.py
     posterior             {samples, effective, autocorrelation, acceptance, converged, budding_time_us: {median, low, high} or null}
     emulator              {degree, runs, excluded, error, check: {size, worst, unlike, runs}, crowded}: errors in those of the data
@@ -30,13 +31,16 @@ from scipy.stats import chi2
 from comparisons.inference.batch import batch_of, values_at, within_course
 from comparisons.inference.course import BUDDED
 from comparisons.inference.identifiability import directions
-from comparisons.inference.observations import QUANTITIES
+from comparisons.inference.study_keys import QUANTITIES
 
 #: Ends of a 90 % interval: quantiles, and standard deviations of a normal one.
 LOW, HIGH, DEVIATIONS = 0.05, 0.95, 1.6449
 
 #: Samples and times of a band; it is drawn where this fraction of the samples has the quantity.
 BAND_SAMPLES, BAND_TIMES, BAND_EXISTS = 400, 120, 0.95
+
+#: A best fit nearer to a limit of its prior than this, in the prior's coordinate, lies at the limit.
+AT_LIMIT = 0.01
 
 #: A fit with a smaller probability is worth a warning.
 LEAST_P_VALUE = 1e-3
@@ -45,7 +49,7 @@ LEAST_P_VALUE = 1e-3
 def fit_results(problem, inference, units):
     """The part of infer.json that comes from the data; units: {key: unit} of parameters."""
     fit, posterior, trained = inference.fit, inference.posterior, inference.trained
-    freedom = max(0, len(problem.data) - len(problem.unknowns))
+    freedom = max(0, int(np.isfinite(fit.residuals).sum()) - len(problem.unknowns))
     batch = trained.batch(posterior.x[:, : problem.engine_count])
     covered = problem.covered(batch_of([fit.course]), fit.x[None, :])[0]
     factor, offset = problem.clocks(posterior.x)
@@ -121,6 +125,7 @@ def unknown_table(problem, fit, posterior, units):
                 **interval(prior.value(posterior.x[:, i])),
                 "prior_low": float(prior.value(prior.lowest)),
                 "prior_high": float(prior.value(prior.highest)),
+                "at_limit": bool(min(fit.x[i] - prior.lowest, prior.highest - fit.x[i]) < AT_LIMIT),
                 "needs_runs": i < problem.engine_count,
             }
         )
@@ -163,11 +168,14 @@ def warnings(results):
     fit, emulator, posterior = (results.get(name) for name in ("fit", "emulator", "posterior"))
     if fit is None:
         return found
-    if fit["p_value"] is not None and fit["p_value"] < LEAST_P_VALUE:
+    if chi2.sf(fit["chi_square"], max(1, fit["degrees_of_freedom"])) < LEAST_P_VALUE:
         found.append(
             f"the best fit misses the data by more than their errors allow: χ² = {fit['chi_square']:.4g} for "
             f"{fit['degrees_of_freedom']} degrees of freedom; the model, the case or the errors are not those of the data"
         )
+    at_limit = [one["name"] for one in results["unknowns"] if one["at_limit"]]
+    if at_limit:
+        found.append(f"the best fit lies at a limit of its prior: {', '.join(at_limit)}; widen it if more is possible")
     if fit["outside"]:
         where = "where the best run has no such number (before its neck, after its end)"
         found.append(f"{fit['outside']} of {fit['data']} data lie {where}")

@@ -4,12 +4,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from comparisons.errors import IO_FAILURE, StudyError
+from comparisons.errors import IO_FAILURE, RUN_FAILED, StudyError
 
 #: Steps between two looks at the autocorrelation, most steps, and the steps of an autocorrelation time that end a chain.
 BLOCK = 500
 MOST_STEPS = 20000
 LENGTH = 50
+
+#: Smallest part of the covariance's spread around the start that walkers get.
+LEAST_SPREAD = 1e-9
 
 #: Walkers for each unknown, and at least.
 WALKERS_PER_UNKNOWN, LEAST_WALKERS = 6, 24
@@ -31,13 +34,14 @@ class Posterior:
 class Density:
     """Logarithm of the posterior (n,) at coordinates (n, unknowns), but for a constant, on a training.Trained.
 
-    values (data,): instead of the measured ones.
+    values (data,): instead of the measured ones. Data that no run of the emulator's outcome has say nothing.
     """
 
     def __init__(self, problem, trained, values=None):
         self.problem, self.trained = problem, trained
         self.values = problem.values if values is None else values
         self.errors = np.hypot(problem.errors, trained.errors)
+        self.known = problem.known(trained.batch(trained.emulator.region.centre[None, :])) & np.isfinite(self.values)
 
     def __call__(self, x):
         count = self.problem.engine_count
@@ -46,7 +50,8 @@ class Density:
         found = np.where(inside, found, -np.inf)
         if inside.any():
             predicted = self.problem.predictions(self.trained.batch(x[inside, :count]), x[inside])
-            found[inside] -= 0.5 * np.sum(((predicted - self.values) / self.errors) ** 2, axis=1)
+            misses = ((predicted - self.values) / self.errors)[:, self.known]
+            found[inside] -= 0.5 * np.sum(misses**2, axis=1)
         return np.where(np.isnan(found), -np.inf, found)
 
 
@@ -84,13 +89,15 @@ def ensemble(density, start, covariance, seed, walkers):
 
 
 def first_walkers(density, start, covariance, generator, count):
-    """Walkers (count, unknowns) with a finite density around a point."""
-    root = 0.5 * np.linalg.cholesky(covariance + 1e-12 * np.eye(len(start)))
+    """Walkers (count, unknowns) with a finite density around a point. Raises StudyError where there are none."""
+    part, root = 1.0, 0.5 * np.linalg.cholesky(covariance + 1e-12 * np.eye(len(start)))
     found = []
     while len(found) < count:
-        points = start + generator.standard_normal((count, len(start))) @ root.T
+        if part < LEAST_SPREAD:
+            raise StudyError("the best fit lies outside of its emulator's region; take other priors", RUN_FAILED)
+        points = start + generator.standard_normal((count, len(start))) @ (part * root).T
         found.extend(points[np.isfinite(density(points))])
-        root = 0.9 * root
+        part *= 0.9
     return np.array(found[:count])
 
 

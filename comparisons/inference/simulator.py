@@ -6,7 +6,8 @@ import numpy as np
 
 import endoflow
 from comparisons.errors import RUN_FAILED, StudyError
-from comparisons.inference.course import course_of
+from comparisons.inference.course import CourseError, course_of
+from comparisons.inference.study_file import horizon
 from comparisons.studies.member_runner import FAILED, Task, available_cores, member_environment, run_all, shares
 from comparisons.studies.members import FINISHED, Member, resolved_parameters, run_command, work_left
 from comparisons.studies.progress import Progress
@@ -94,7 +95,7 @@ class Simulator:
             if run.alarms:
                 self.alarmed[member.name] = str(run.alarms[0])
             return course_of(run.until(member.end), self.problem.columns, self.problem.contours)
-        except endoflow.EndoflowError as error:
+        except (endoflow.EndoflowError, CourseError) as error:
             self.failures[member.name] = str(error)
             return None
 
@@ -109,14 +110,10 @@ def fixed_settings(study, parameters):
         "output.stop_at_budding": "true",
         "time.end": f"{end:.10g}",
     }
-    return tuple(f"{key}={_text(value)}" for key, value in {**own, **study.settings}.items())
+    return settings_of({**own, **study.settings})
 
 
-def horizon(study, parameters):
-    """Time (µs) to which runs go unless they bud: the study's, or the case's."""
-    return study.horizon or parameters["time"]["end"]
-
-
-def _text(value):
-    return str(value).lower() if isinstance(value, bool) else str(value)
+def settings_of(values):
+    """("section.key=value", …) of {key: value}."""
+    return tuple(f"{key}={str(value).lower() if isinstance(value, bool) else value}" for key, value in values.items())
 

@@ -1,21 +1,25 @@
 """STUDY.toml of `endoflow infer`: the case, the unknowns with their priors, the data with their errors."""
 
+import math
 import tomllib
+from collections import Counter
 from dataclasses import dataclass
 
 from comparisons.errors import BAD_INPUT, IO_FAILURE, StudyError
+from comparisons.inference.key_kinds import shown
 from comparisons.inference.observations import contour, event, history_data, run_data
 from comparisons.inference.priors import KINDS, PriorError, prior_of
+from comparisons.inference.study_keys import DATA_KINDS, TABLES, read_keys, unknown
+from comparisons.inference.text_file import FileError, read_text
 
-#: Keys of each part.
-STUDY_KEYS = {"case", "engine", "seed", "horizon"}
-UNKNOWN_KEYS = {"name", "key", "scales", "divides", "time_offset", "prior", *(k for keys in KINDS.values() for k in keys)}
-DATA_KEYS = {
-    "file": {"file", "error"},
-    "run": {"run", "columns", "points", "from", "to", "error"},
-    "event": {"event", "time_us", "error_us"},
-    "contour": {"contour", "time_us", "error_nm", "low_us", "high_us"},
-}
+#: Keys of a study as a whole: how often each may be there is in its brackets.
+PARTS = {"study": "[study]", "set": "[set]", "unknown": "[[unknown]]", "data": "[[data]]"}
+
+#: Keys of an unknown that say what it is; it has one of them.
+WHAT = ("key", "scales", "time_offset")
+
+#: What reads the data that are no outlines.
+READERS = {"file": history_data, "run": run_data, "event": event}
 
 #: Most unknowns that need runs: an emulator of third degree has 84 coefficients then.
 MOST_UNKNOWNS = 6
@@ -48,8 +52,10 @@ class Unknown:
 
 @dataclass(frozen=True)
 class StudyFile:
-    """A study as its file says. case: path or name; settings: {key: value}; data: list of observations.Datum; horizon: µs or None."""
+    """A study as its file says. path: of it; case: path or name; settings: {key: value}; data: of observations.Datum;
+    horizon: µs or None."""
 
+    path: str
     case: str
     engine: str
     settings: dict
@@ -63,14 +69,15 @@ class StudyFile:
 def read_study(path):
     """The StudyFile of a path. Raises StudyError that names file and key: exit code 4 for a file that cannot be read, else 2."""
     try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "is no text in UTF-8"
-        raise StudyError(f"{path}: {reason}; give the path of a study in TOML", IO_FAILURE) from None
+        text = read_text(path, "give the path of a study in TOML")
+    except FileError as error:
+        raise StudyError(error, IO_FAILURE) from None
     try:
         content = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise StudyError(f"{path}: {error}", BAD_INPUT) from None
+    except RecursionError:
+        raise StudyError(f"{path}: lists in lists, too many of them", BAD_INPUT) from None
+    except ValueError as error:
+        raise StudyError(f"{path}: {str(error).splitlines()[0]}", BAD_INPUT) from None
     return _Reader(path).study(content)
 
 
@@ -83,91 +90,129 @@ class _Reader:
     def fail(self, where, what):
         raise StudyError(f"{self.path}: {where}: {what}", BAD_INPUT)
 
-    def table(self, content, where, allowed):
-        """A table whose keys are all known."""
-        if not isinstance(content, dict):
-            self.fail(where, "must be a table")
-        for key in content:
-            if key not in allowed:
-                self.fail(where, f"unknown key {key!r}; known: {', '.join(sorted(allowed))}")
-        return content
+    def keys(self, part, content, where):
+        """The keys of a table by TABLES[part]."""
+        try:
+            return read_keys(part, content)
+        except ValueError as error:
+            self.fail(where, error)
 
     def study(self, content):
-        self.table(content, "the study", {"study", "set", "unknown", "data"})
-        head = self.table(content.get("study", {}), "[study]", STUDY_KEYS)
-        engine = head.get("engine", "boundary-integral")
-        if engine not in ("boundary-integral", "phase-field"):
-            self.fail("[study]", f'engine = {engine!r}: it is "boundary-integral" or "phase-field"')
+        for name, value in content.items():
+            if name not in PARTS:
+                self.fail("the study", unknown(name, PARTS))
+            listed = PARTS[name].startswith("[[")
+            if not isinstance(value, list if listed else dict) or listed and not all(isinstance(v, dict) for v in value):
+                self.fail(name, f"must be written {PARTS[name]}, with {'two brackets each time' if listed else 'one bracket'}")
+        head = self.keys("[study]", content.get("study", {}), "[study]")
+        settings = self.settings(content.get("set", {}), head["horizon"])
         unknowns = [self.unknown(entry, f"[[unknown]] {i + 1}") for i, entry in enumerate(content.get("unknown", []))]
         if not unknowns:
             self.fail("the study", "needs at least one [[unknown]]")
-        names = [unknown.name for unknown in unknowns]
-        if len(set(names)) < len(names):
-            self.fail("[[unknown]]", f"{next(n for n in names if names.count(n) > 1)} is there twice")
-        data, contours = [], []
-        for number, entry in enumerate(content.get("data", [])):
-            self.datum(entry, f"[[data]] {number + 1}", data, contours)
+        data, contours = self.data(content.get("data", []))
         for outline in contours:
             if outline.time is None:
                 prior = prior_of("uniform", {"low": outline.low, "high": outline.high})
                 unknowns.append(Unknown(outline.time_name, prior))
-        horizon = head.get("horizon")
-        if horizon is not None and not (isinstance(horizon, (int, float)) and horizon > 0):
-            self.fail("[study]", f"horizon = {horizon!r}: a positive time in µs")
-        case = str(head.get("case", "standard"))
+        self.require_apart(unknowns, settings)
+        case = head["case"]
         if (self.path.parent / case).is_file():
             case = str(self.path.parent / case)
-        settings = content.get("set", {})
-        if not isinstance(settings, dict) or any(isinstance(value, dict) for value in settings.values()):
-            self.fail("[set]", 'holds lines "section.key" = value, the keys in quotes')
         return StudyFile(
-            case, engine, settings, tuple(unknowns), tuple(data), tuple(contours), int(head.get("seed", 1)), horizon
+            str(self.path),
+            case,
+            head["engine"],
+            settings,
+            tuple(unknowns),
+            tuple(data),
+            tuple(contours),
+            head["seed"],
+            head["horizon"],
         )
+
+    def settings(self, found, horizon):
+        """[set]: lines "section.key" = value."""
+        for key, value in found.items():
+            if isinstance(value, dict) or "." not in key:
+                self.fail("[set]", f'{key}: holds lines "section.key" = value, the keys in quotes')
+            if not isinstance(value, (bool, int, float, str)) or isinstance(value, float) and not math.isfinite(value):
+                self.fail("[set]", f"{key} = {shown(value)}: must be a finite number, a text, true or false")
+        if horizon is not None and "time.end" in found:
+            self.fail("[set]", "time.end: horizon gives it a value, too; leave one out")
+        return found
 
     def unknown(self, entry, where):
         """One [[unknown]]."""
-        self.table(entry, where, UNKNOWN_KEYS)
-        kinds = [kind for kind in ("key", "scales", "time_offset") if entry.get(kind)]
-        if len(kinds) != 1:
+        keys = self.keys("[[unknown]]", entry, where)
+        if sum(bool(keys[kind]) for kind in WHAT) != 1:
             self.fail(where, "needs one of key (a parameter), scales (parameters that it multiplies), time_offset = true")
-        lists = {name: self.keys_of(entry.get(name, []), where, name) for name in ("scales", "divides")}
-        name = str(entry.get("name") or entry.get("key") or ("time_offset" if kinds == ["time_offset"] else ""))
+        if keys["divides"] and not keys["scales"]:
+            self.fail(where, "divides: needs scales, what the same factor multiplies")
+        both = set(keys["scales"]) & set(keys["divides"])
+        if both:
+            self.fail(where, f"divides: {min(both)} stands under scales, too")
+        name = keys["name"] or keys["key"] or ("time_offset" if keys["time_offset"] else "")
         if not name:
             self.fail(where, "a factor needs a name")
-        numbers = {}
-        for key in {k for keys in KINDS.values() for k in keys} & entry.keys():
-            if isinstance(entry[key], bool) or not isinstance(entry[key], (int, float)):
-                self.fail(where, f"{key} = {entry[key]!r}: a number is needed")
-            numbers[key] = float(entry[key])
+        numbers = {k: keys[k] for k in ("low", "high", *(k for own in KINDS.values() for k in own)) if keys[k] is not None}
         try:
-            prior = prior_of(str(entry.get("prior", "none")), numbers)
+            prior = prior_of(keys["prior"], numbers)
         except PriorError as error:
             self.fail(f"{where} ({name})", error)
-        if lists["scales"] and not prior.logarithmic and prior.value(prior.lowest) <= 0:
+        if keys["scales"] and not prior.logarithmic and prior.value(prior.lowest) <= 0:
             self.fail(f"{where} ({name})", "a factor is positive; take log-uniform, or low > 0")
-        return Unknown(name, prior, entry.get("key", ""), lists["scales"], lists["divides"], "time_offset" in kinds)
+        return Unknown(name, prior, keys["key"] or "", keys["scales"], keys["divides"], keys["time_offset"])
 
-    def keys_of(self, found, where, name):
-        """A list of parameters' keys."""
-        if not isinstance(found, list) or not all(isinstance(key, str) and "." in key for key in found):
-            self.fail(where, f'{name} is a list of keys, ["section.key", …]')
-        return tuple(found)
+    def require_apart(self, unknowns, settings):
+        """Each unknown has a name of its own, and nothing else gives it a value."""
+        for what, found in (
+            ("name", [unknown.name for unknown in unknowns]),
+            ("key", [unknown.key for unknown in unknowns if unknown.key]),
+            ("time_offset", ["true" for unknown in unknowns if unknown.time_offset]),
+            ("scales", [" and ".join(sorted(unknown.scales)) for unknown in unknowns if unknown.scales]),
+        ):
+            twice = [one for one, count in Counter(found).items() if count > 1]
+            if twice:
+                self.fail("[[unknown]]", f"{what} = {twice[0]} is there twice")
+        for unknown in unknowns:
+            if unknown.key in settings:
+                self.fail("[set]", f"{unknown.key}: is an unknown, too; leave one out")
+            if unknown.key == "time.end":
+                self.fail("[[unknown]]", "key = time.end: how far runs go is no unknown; it is horizon in [study]")
 
-    def datum(self, entry, where, data, contours):
-        """One [[data]], appended to data or contours."""
-        kinds = [kind for kind in DATA_KEYS if isinstance(entry, dict) and kind in entry]
-        if len(kinds) != 1:
-            self.fail(where, f"needs one of {', '.join(DATA_KEYS)}")
-        kind = kinds[0]
-        self.table(entry, where, DATA_KEYS[kind])
-        try:
-            if kind == "contour":
-                contours.append(contour(self.path.parent / entry["contour"], entry, len(contours)))
-            else:
-                reader = {"file": history_data, "run": run_data, "event": event}[kind]
-                data.extend(reader(self.path.parent, entry))
-        except (ValueError, TypeError) as error:
-            self.fail(where, error)
+    def data(self, entries):
+        """(Data, Contours) of all [[data]]."""
+        data, contours, sources = [], [], []
+        for number, entry in enumerate(entries, start=1):
+            where = f"[[data]] {number}"
+            kinds = [kind for kind in DATA_KINDS if kind in entry]
+            if not kinds:
+                known = dict.fromkeys(key.name for kind in DATA_KINDS for key in TABLES[f"[[data]] {kind}"])
+                wrong = [name for name in entry if name not in known]
+                what = f"; {unknown(wrong[0], known)}" if wrong else ""
+                self.fail(where, f"needs one of {', '.join(DATA_KINDS)}{what}")
+            if len(kinds) > 1:
+                self.fail(where, f"has {' and '.join(kinds)}; each needs a [[data]] of its own")
+            kind = kinds[0]
+            keys = self.keys(f"[[data]] {kind}", entry, where)
+            try:
+                if kind == "contour":
+                    contours.append(contour(self.path.parent, keys, where, len(contours)))
+                else:
+                    data.extend(READERS[kind](self.path.parent, keys, where))
+            except ValueError as error:
+                self.fail(where, error)
+            if kind != "event":
+                own = [(kind, (self.path.parent / keys[kind]).resolve(), column) for column in keys.get("columns", ("",))]
+                if any(source in sources for source in own):
+                    self.fail(where, f"{kind} = {shown(keys[kind])} is there twice; its data would count twice")
+                sources += own
+        return data, contours
+
+
+def horizon(study, parameters):
+    """Time (µs) to which runs go unless they bud: the study's, or the case's."""
+    return study.horizon or parameters["time"]["end"]
 
 
 def is_exact_time_scale(unknown, parameters):
@@ -185,4 +230,3 @@ def is_exact_time_scale(unknown, parameters):
         and parameters["fluid"]["dynamics"] == "flow"
         and parameters["molecules"].get("exchange", "none") == "none"
     )
-

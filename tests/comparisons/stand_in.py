@@ -16,6 +16,7 @@ PARAMETERS = {
         "inertia": False,
         "dynamics": "flow",
     },
+    "domain": {"kind": "box", "radius": 80.0, "height": 160.0, "membrane_height": 80.0},
     "membrane": {"bending_stiffness": 100.0, "bending_stiffness_coated": 1200.0, "spontaneous_curvature": 0.07},
     "molecules": {"patch_radius": 36.0, "transport": "cahn-hilliard", "mobility": 64e3},
     "time": {"end": 20.0},

@@ -15,6 +15,7 @@ from studies import StudyTest
 PROGRAM = os.environ.get("ENDOFLOW_PROGRAM")
 
 UNKNOWN = '[[unknown]]\nkey = "fluid.viscosity_intracellular"\nprior = "log-uniform"\nlow = 0.006\nhigh = 0.016\n'
+WIDE = '[[unknown]]\nkey = "molecules.patch_radius"\nprior = "uniform"\nlow = 30\nhigh = 2000\n'
 EVENT = '[[data]]\nevent = "budding"\ntime_us = 0.8\nerror_us = 0.01\n'
 
 
@@ -31,19 +32,21 @@ class Refused(StudyTest):
         for text, message in (
             ("", "needs at least one"),
             (UNKNOWN, "needs \\[\\[data\\]\\]"),
-            (UNKNOWN + "[[datum]]\n", "unknown key 'datum'; known: "),
+            (UNKNOWN + "[[datum]]\n", "unknown key 'datum'; did you mean data"),
             (UNKNOWN.replace("low = 0.006\n", "") + EVENT, "\\[\\[unknown\\]\\] 1 .*needs low"),
             (UNKNOWN.replace("viscosity_intracellular", "viscosity") + EVENT, "fluid.viscosity is no parameter with a number"),
             (UNKNOWN.replace("key", "kye") + EVENT, "unknown key 'kye'"),
-            (UNKNOWN + EVENT.replace("budding", "fusion"), "known: budding"),
-            (UNKNOWN + EVENT.replace("0.01", "0"), "must be greater than 0"),
-            (UNKNOWN + data.format("neck.csv"), "row 2, column neck_radius_nm: 'x' is no number"),
+            (UNKNOWN + EVENT.replace("budding", "fusion"), "must be one of \"budding\""),
+            (UNKNOWN + EVENT.replace("0.01", "0"), "error_us = 0: must be a finite number > 0"),
+            (UNKNOWN + data.format("neck.csv"), "neck.csv:2: neck_radius_nm = \"x\" is no number"),
             (UNKNOWN + data.format("good.csv"), "needs a column neck_radius_error_nm"),
-            (UNKNOWN + data.format("odd.csv"), "unknown column 'neck'; known: time_us"),
+            (UNKNOWN + data.format("odd.csv"), "odd.csv:1: unknown head \"neck\"; its heads are \"time_us\", \"neck\"; known: time_us"),
             (UNKNOWN + data.format("no.csv"), "no.csv: No such file"),
             (UNKNOWN + '[[data]]\nrun = "nowhere"\nerror = 1\n', "no such directory"),
             (UNKNOWN + EVENT + "[set]\nmolecules.patch_radius = 3\n", "the keys in quotes"),
             (UNKNOWN + EVENT + "[", "study.toml: Invalid initial character"),
+            (WIDE + EVENT, "study.toml: unknown molecules.patch_radius: its prior allows 2000: molecules.patch_radius: must be at most"),
+            (UNKNOWN + EVENT + '[set]\n"molecules.patch_radius" = 2000\n', "study.toml: molecules.patch_radius: must be at most 1000"),
         ):
             with self.subTest(message):
                 self.assert_one_line(self.infer(text), 2, message)

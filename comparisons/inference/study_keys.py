@@ -1,0 +1,190 @@
+"""Every key of a study: what it may hold, what holds without it, what it means. Checks and the documentation come from here."""
+
+import difflib
+import re
+import unicodedata
+from dataclasses import dataclass
+
+from comparisons.inference.key_kinds import Choice, Flag, Heads, Number, Text, Texts, ValueRefused, Whole, choice, shown
+from comparisons.inference.priors import KINDS
+from comparisons.inference.text_file import ENCODINGS
+
+#: Columns of history.csv that may be data.
+QUANTITIES = (
+    "neck_radius_nm",
+    "bud_diameter_nm",
+    "bud_height_nm",
+    "membrane_area_nm2",
+    "volume_extracellular_nm3",
+)
+
+#: Units of lengths in nm and of times in µs. A pixel is as long as the study says.
+LENGTHS = {"nm": 1.0, "Å": 0.1, "µm": 1e3, "pixel": None}
+TIMES = {"ns": 1e-3, "µs": 1.0, "ms": 1e3, "s": 1e6}
+
+#: Other spellings of units.
+SPELLINGS = {"A": "Å", "angstrom": "Å", "Angstrom": "Å", "um": "µm", "px": "pixel", "pixels": "pixel", "us": "µs"}
+
+#: Separators of cells by the names that a study may give them.
+SEPARATORS = {",": ",", ";": ";", "tab": "\t", "space": " "}
+
+
+def unit_of_text(text):
+    """The unit that a text spells, in the letters of LENGTHS and TIMES; other text as it is."""
+    plain = unicodedata.normalize("NFC", text).replace("μ", "µ")
+    return SPELLINGS.get(plain, plain)
+
+
+class Unit(Choice):
+    """One of some units, however it is spelled."""
+
+    def read(self, value):
+        """The unit."""
+        return super().read(unit_of_text(value) if isinstance(value, str) else value)
+
+
+PARAMETER = Text('a parameter, "section.key"', r"[A-Za-z_][\w.]*\.\w+")
+PARAMETERS = Texts(PARAMETER, 'a list of parameters, ["section.key", …]')
+FILE = Text("the path of a CSV, relative to the study")
+POSITIVE = Number(above=0)
+
+#: Largest seed: every generator of random numbers takes it, and those that follow it.
+MOST_SEED = 2**31 - 1
+
+
+@dataclass(frozen=True)
+class Key:
+    """A key. kind: what it may hold; default: what holds without it, None for nothing; needed: it must be there."""
+
+    name: str
+    kind: object
+    meaning: str
+    default: object = None
+    needed: bool = False
+
+
+#: How a CSV is written.
+LAYOUT = (
+    Key("heads", Heads(), "which columns are which, where the file calls them otherwise"),
+    Key("ignore", Texts(Text("a head"), "a list of heads"), "heads of columns that are no data", ()),
+    Key("separator", Choice(tuple(SEPARATORS), {"\t": "tab", " ": "space"}), "what stands between cells", ","),
+    Key("decimal", choice(".", ","), "the decimal mark", "."),
+    Key("encoding", choice(*ENCODINGS), "of a file without a byte-order mark", "utf-8"),
+    Key("length_unit", Unit(tuple(LENGTHS), {}), "unit of the file's lengths, areas and volumes", "nm"),
+    Key("pixel_nm", POSITIVE, "nm: size of a pixel"),
+)
+TIME_UNIT = Key("time_unit", Unit(tuple(TIMES), {}), "unit of the file's times", "µs")
+
+#: {part of the study: its keys}. A [[data]] has the keys of what it is.
+TABLES = {
+    "[study]": (
+        Key("case", Text("name or path of a case"), "name or path of a case", "standard"),
+        Key("engine", choice("boundary-integral", "phase-field"), "what makes the runs", "boundary-integral"),
+        Key("horizon", POSITIVE, "µs: how far runs go unless they bud; without it, `time.end`"),
+        Key("seed", Whole(0, MOST_SEED), "of all random numbers", 1),
+    ),
+    "[[unknown]]": (
+        Key("name", Text("plain text on one line without $", r"[^\x00-\x1f\x7f$]*[^\x00-\x20\x7f$][^\x00-\x1f\x7f$]*"), "how it is called; without it, `key`"),
+        Key("key", PARAMETER, "the parameter whose value is unknown"),
+        Key("scales", PARAMETERS, "parameters that an unknown factor multiplies", ()),
+        Key("divides", PARAMETERS, "parameters that the same factor divides", ()),
+        Key("time_offset", Flag(), "whether it is a shift of the data's time, in µs", False),
+        Key("prior", choice(*KINDS), "kind of the prior", needed=True),
+        Key("low", Number(), "lower limit"),
+        Key("high", Number(), "upper limit"),
+        Key("mean", Number(), "of a normal prior"),
+        Key("sd", POSITIVE, "standard deviation of a normal prior"),
+        Key("median", POSITIVE, "of a log-normal prior"),
+        Key("factor", Number(above=1), "one standard deviation of a log-normal prior"),
+    ),
+    "[[data]] file": (
+        Key("file", FILE, "a CSV of curves against time", needed=True),
+        Key("error", POSITIVE, "nm, nm², nm³: of every number without an error of its own"),
+        TIME_UNIT,
+        *LAYOUT,
+    ),
+    "[[data]] run": (
+        Key("run", Text("the path of a run's directory, relative to the study"), "directory of a run", needed=True),
+        Key("columns", Texts(choice(*QUANTITIES), f"a list of some of {', '.join(QUANTITIES)}"), "its curves", ("neck_radius_nm",)),
+        Key("error", POSITIVE, "of each number, in the unit of its column", needed=True),
+        Key("points", Whole(1, 10000), "numbers taken from each curve", 30),
+        Key("from", Number(least=0), "µs: time of the first one; without it, where the curves begin"),
+        Key("to", POSITIVE, "µs: time of the last one; without it, budding or the end"),
+    ),
+    "[[data]] event": (
+        Key("event", choice("budding"), "what happened", needed=True),
+        Key("time_us", Number(), "µs: when", needed=True),
+        Key("error_us", POSITIVE, "µs: its error", needed=True),
+    ),
+    "[[data]] contour": (
+        Key("contour", FILE, "a CSV of an outline's points", needed=True),
+        Key("error_nm", POSITIVE, "nm: of each point", needed=True),
+        Key("time_us", Number(), "µs: when it was taken, where that is known"),
+        Key("low_us", Number(least=0), "µs: earliest time where it is unknown", 0.0),
+        Key("high_us", POSITIVE, "µs: latest time where it is unknown"),
+        Key("half_planes", choice("right", "both"), "both: points with r < 0 are mirrored to the right", "right"),
+        Key("z_from", choice("rim", "floor"), "where z is 0: at the level of the rim or on the floor of the box", "rim"),
+        *LAYOUT,
+    ),
+}
+
+#: What a [[data]] can be: the key that says so.
+DATA_KINDS = tuple(name.split()[1] for name in TABLES if name.startswith("[[data]]"))
+
+
+class KeyRefused(ValueError):
+    """A key that cannot be there or whose value cannot be; the message begins with the key."""
+
+
+def read_keys(part, content):
+    """{name: value or default} of a table of the study (dict), whose keys are those of TABLES[part]. Raises KeyRefused."""
+    known = {key.name: key for key in TABLES[part]}
+    for name in content:
+        if name not in known:
+            raise KeyRefused(unknown(name, known, part))
+    for key in known.values():
+        if key.needed and key.name not in content:
+            raise KeyRefused(f"needs {key.name}: {allowed(key)}")
+    return {key.name: _value(key, content[key.name]) if key.name in content else key.default for key in known.values()}
+
+
+def _value(key, value):
+    try:
+        return key.kind.read(value)
+    except ValueRefused as error:
+        raise KeyRefused(f"{key.name} = {shown(value)}: {error}") from None
+
+
+def unknown(name, known, part=""):
+    """What is said about a name that is none of `known`: the nearest one, or the part of the study where it belongs."""
+    elsewhere = [other for other, keys in TABLES.items() if other != part and name in [key.name for key in keys]]
+    near = difflib.get_close_matches(name, known, 1)
+    hint = f"; it belongs to {elsewhere[0]}" if elsewhere else f"; did you mean {near[0]}?" if near else ""
+    return f"unknown key {name!r}{hint}; known: {', '.join(known)}"
+
+
+def allowed(key):
+    """What a Key may hold, in words that say what for."""
+    return f"{key.kind.words} ({key.meaning})" if key.meaning != key.kind.words else key.meaning
+
+
+def documentation():
+    """The tables of all keys as Markdown, as docs/inference.md has them."""
+    lines = []
+    own = {part: tuple(key for key in keys if key not in LAYOUT) for part, keys in TABLES.items()}
+    for part, keys in {**own, "[[data]] file, contour": LAYOUT}.items():
+        lines += [f"**`{part}`**", "", "| key | may be | without it | meaning |", "| --- | --- | --- | --- |"]
+        for key in keys:
+            default = "needed" if key.needed else "–" if key.default in (None, ()) else f"`{_toml(key.default)}`"
+            lines.append(f"| `{key.name}` | {_cell(key.kind.words)} | {default} | {_cell(key.meaning)} |")
+        lines.append("")
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _toml(value):
+    return "[" + ", ".join(map(_toml, value)) + "]" if isinstance(value, tuple) else shown(value)
+
+
+def _cell(text):
+    """Words as a cell of a table: what is in quotes or brackets as code."""
+    return re.sub(r'(\{.*\}|\[[^\]]*\]|"[^"]*")', r"`\1`", text)
