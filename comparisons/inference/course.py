@@ -20,6 +20,9 @@ SECOND_GRID = np.linspace(0, 1, STAGE_POINTS) ** 2
 #: How a run ended.
 NO_NECK, NECK, BUDDED = "no neck", "neck", "budded"
 
+#: Part of a run that its first stage lasts at least: that of a run which starts with a neck would last no time.
+EARLIEST = 1e-6
+
 #: Rows after a neck's appearance from which its moment is extrapolated.
 ONSET_ROWS = 3
 
@@ -51,7 +54,7 @@ def course_of(run, columns, contours=()):
     if onset is not None and not np.any(np.isfinite(history["neck_radius_nm"]) & (time > onset[0]) & (time <= end)):
         onset = None  # born with the last row: a stage that lasts no time has no course
     outcome = NO_NECK if onset is None else NECK if budding is None else BUDDED
-    neck_time = end if onset is None else onset[0]
+    neck_time = end if onset is None else max(onset[0], EARLIEST * end)
     first_times = neck_time * FIRST_GRID
     second_times = neck_time + (end - neck_time) * SECOND_GRID
     first, second = {}, {}
