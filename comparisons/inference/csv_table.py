@@ -1,6 +1,6 @@
 """CSV files that people give: columns by name in nm and µs, and the line of each row, or why not in one line.
 
-A line of heads names the columns. Comment lines begin with #. Rows whose cells are all empty are left out, an empty cell is
+A line of heads names the columns. Comment lines begin with #; a first line sep=; says no more than the study does. Rows whose cells are all empty are left out, an empty cell is
 nan. Everything else is refused with file, line and the key of the study that would read it.
 """
 
@@ -22,6 +22,9 @@ RECODING = 'save it in UTF-8, or say encoding = "latin-1"'
 
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
+
+#: A line that is no row: a comment, but not a spreadsheet's word for a number that it could not compute.
+COMMENT = re.compile(r"#(?!(DIV/0!|N/A|NAME\?|NULL!|NUM!|REF!|VALUE!))")
 
 #: What programs write where there is no number, in small letters.
 NO_NUMBER = ("", "nan", "na", "n/a")
@@ -96,7 +99,9 @@ def read_table(path, needed, allowed, layout):
 
 def _rows(path, text, layout):
     """[(line, cells)] without comments and empty rows."""
-    lines = ["\n" if line.startswith("#") else f"{line}\n" for line in text.split("\n")]
+    lines = ["\n" if COMMENT.match(line) else f"{line}\n" for line in text.split("\n")]
+    if re.fullmatch(r"sep=.\n", lines[0]):
+        lines[0] = "\n"  # a spreadsheet's note to itself
     if layout.separator == "space":
         lines = [" ".join(line.split()) + "\n" for line in lines]
     reader = csv.reader(lines, delimiter=SEPARATORS[layout.separator], strict=True, skipinitialspace=True)

@@ -148,8 +148,10 @@ class Heads:
         """A dict, or a tuple of names, "" for a column that is no data."""
         if isinstance(value, dict) and value and all(isinstance(head, str) and head.strip() for head in value.values()):
             heads = [head.strip() for head in value.values()]
-            if len(set(heads)) == len(heads):
-                return dict(zip(value, heads))
+            twice = [head for head in heads if heads.count(head) > 1]
+            if twice:
+                raise ValueRefused(f"has {shown(twice[0])} twice")
+            return dict(zip(value, heads))
         if isinstance(value, list) and value and all(isinstance(name, str) for name in value):
             return tuple(value)
         raise ValueRefused(f"must be {self.words}")

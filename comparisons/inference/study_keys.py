@@ -26,7 +26,7 @@ TIMES = {"ns": 1e-3, "µs": 1.0, "ms": 1e3, "s": 1e6}
 SPELLINGS = {"A": "Å", "angstrom": "Å", "Angstrom": "Å", "um": "µm", "px": "pixel", "pixels": "pixel", "us": "µs"}
 
 #: Separators of cells by the names that a study may give them.
-SEPARATORS = {",": ",", ";": ";", "tab": "\t", "space": " "}
+SEPARATORS = {",": ",", ";": ";", "|": "|", "tab": "\t", "space": " "}
 
 
 def unit_of_text(text):
@@ -66,7 +66,7 @@ class Key:
 #: How a CSV is written.
 LAYOUT = (
     Key("heads", Heads(), "which columns are which, where the file calls them otherwise"),
-    Key("ignore", Texts(Text("a head"), "a list of heads"), "heads of columns that are no data", ()),
+    Key("ignore", Texts(Text("a head", r"[^\x00-\x1f\x7f]*"), "a list of heads"), "heads of columns that are no data", ()),
     Key("separator", Choice(tuple(SEPARATORS), {"\t": "tab", " ": "space"}), "what stands between cells", ","),
     Key("decimal", choice(".", ","), "the decimal mark", "."),
     Key("encoding", choice(*ENCODINGS), "of a file without a byte-order mark", "utf-8"),

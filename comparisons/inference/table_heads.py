@@ -14,6 +14,12 @@ NUMBER = re.compile(r"[+-]?\d[\d.,]*(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 #: Most heads that a message lists.
 MOST_LISTED = 12
 
+#: Longest head that a message shows whole.
+LONGEST = 60
+
+#: Columns that tell what a table is.
+FIRST_COLUMNS = {"contour": ("r_nm", "z_nm"), "file": ("time_us",)}
+
 
 class HeadsRefused(ValueError):
     """Heads that say not what the columns are; the message says what they are and which key would help."""
@@ -25,7 +31,7 @@ def columns_of(rows, needed, allowed, layout):
     needed, allowed: names of columns; layout: a csv_table.Layout. Raises HeadsRefused.
     """
     cells = rows[0][1]
-    _require_separator(rows, layout)
+    _require_separator(rows, allowed, layout)
     if isinstance(layout.heads, tuple):
         names, start = _given(cells, allowed, layout), 0
     else:
@@ -59,10 +65,10 @@ def _named(cells, needed, allowed, layout):
         if name not in allowed:
             raise HeadsRefused(f"heads: {unknown(name, allowed)}")
         if head not in cells:
-            raise HeadsRefused(f"heads: {name} = {json.dumps(head, ensure_ascii=False)} is none of its heads {_listed(cells)}")
+            raise HeadsRefused(f"heads: {name} = {_quoted(head)} is none of its heads {_listed(cells)}")
     for head in layout.ignore:
         if head not in cells:
-            raise HeadsRefused(f"ignore: {json.dumps(head, ensure_ascii=False)} is none of its heads {_listed(cells)}")
+            raise HeadsRefused(f"ignore: {_quoted(head)} is none of its heads {_listed(cells)}")
     if all(NUMBER.fullmatch(cell) for cell in cells):
         names = json.dumps(list(needed))
         raise HeadsRefused(f"has numbers where the heads belong; say heads = {names}, the columns in their order, in {layout.where}")
@@ -78,19 +84,17 @@ def _named(cells, needed, allowed, layout):
     return names
 
 
-def _require_separator(rows, layout):
-    """Refuses a table of one column that another separator would cut."""
-    cells = rows[0][1]
+def _require_separator(rows, allowed, layout):
+    """Refuses a table of one column that another separator would cut into columns with heads that say something."""
+    cells, numbers = rows[0][1], rows[1][1] if len(rows) > 1 else []
     if len(cells) > 1:
         return
     for name, separator in SEPARATORS.items():
-        parts = [part for part in cells[0].split(separator) if part.strip()]
-        if name == layout.separator or len(parts) < 2 or (name == "space" and re.search(r"[(\[]", cells[0])):
+        parts = [part.strip() for part in cells[0].split(separator)]
+        if name == layout.separator or len(parts) < 2 or not any(guess(part, allowed)[0] for part in parts):
             continue
         keys = [f'separator = "{name}"']
-        if len(rows) > 1 and layout.decimal == "." and name != "," and any("," in cell for cell in rows[1][1]):
-            keys.append('decimal = ","')
-        elif len(rows) > 1 and len(rows[1][1]) > 1 and name != ",":
+        if name != "," and layout.decimal == "." and (len(numbers) > 1 or any("," in cell for cell in numbers)):
             keys.append('decimal = ","')
         raise HeadsRefused(f"its heads are one cell, {_listed(cells)}; say {' and '.join(keys)} in {layout.where}")
 
@@ -101,27 +105,31 @@ def _require_unit(name, head, layout):
     unit = unit_of_text(found[2]) if found else stated
     if stated is not None and unit != stated and unit in (*LENGTHS, *TIMES):
         key = "time_unit" if unit in TIMES else "length_unit"
-        raise HeadsRefused(f'{json.dumps(head, ensure_ascii=False)} is in {unit}, and {name} is taken for {stated}; say {key} = "{unit}"')
+        raise HeadsRefused(f'{_quoted(head)} is in {unit}, and {name} is taken for {stated}; say {key} = "{unit}"')
 
 
 def _complaint(head, cells, allowed, layout):
     """What is said about a head that is not known: which keys would read the file."""
-    guesses = {}
-    units = {}
+    guesses, units = {}, {}
     for cell in cells:
         name, unit = guess(cell, allowed)
         if name and name != cell and name not in guesses:
             guesses[name] = cell
             if unit and unit != layout.stated_unit(name):
                 units["time_unit" if unit in TIMES else "length_unit"] = unit
-    text = f"unknown head {json.dumps(head, ensure_ascii=False)}; its heads are {_listed(cells)}; known: {', '.join(allowed)}"
+    text = f"unknown head {_quoted(head)}; its heads are {_listed(cells)}; known: {', '.join(allowed)}"
     if guesses:
-        pairs = ", ".join(f"{name} = {json.dumps(cell, ensure_ascii=False)}" for name, cell in guesses.items())
+        pairs = ", ".join(f"{name} = {_quoted(cell)}" for name, cell in guesses.items())
         keys = [f"heads = {{ {pairs} }}", *(f'{key} = "{unit}"' for key, unit in units.items())]
         return f"{text}; say {' and '.join(keys)} in {layout.where}"
-    what = json.dumps(head, ensure_ascii=False)
-    free = next((name for name in allowed if name not in cells), allowed[0])
-    return f"{text}; say heads = {{ {free} = {what} }} if it is that, or ignore = [{what}]"
+    others = [kind for kind, columns in FIRST_COLUMNS.items() if columns[0] not in allowed and set(columns) <= set(cells)]
+    if others:
+        return f"{text}; a table with {' and '.join(FIRST_COLUMNS[others[0]])} is given as {others[0]} = …"
+    if not set(cells) & set(allowed):
+        pairs = ", ".join(f'{name} = "…"' for name in allowed[:2])
+        return f"{text}; say heads = {{ {pairs} }} with its own heads; lines before these must begin with #"
+    free = [f"heads = {{ {name} = {_quoted(head)} }} if it is that, or " for name in allowed if name not in cells]
+    return f"{text}; say {(free or [''])[0]}ignore = [{_quoted(head)}] in {layout.where}"
 
 
 def guess(head, allowed):
@@ -140,5 +148,9 @@ def guess(head, allowed):
 
 def _listed(cells):
     """Heads in quotes."""
-    listed = [json.dumps(cell if len(cell) <= 60 else f"{cell[:60]}…", ensure_ascii=False) for cell in cells[:MOST_LISTED]]
-    return ", ".join(listed) + (" …" if len(cells) > MOST_LISTED else "")
+    return ", ".join(map(_quoted, cells[:MOST_LISTED])) + (" …" if len(cells) > MOST_LISTED else "")
+
+
+def _quoted(head):
+    """A head in quotes, a long one cut."""
+    return json.dumps(head if len(head) <= LONGEST else f"{head[:LONGEST]}…", ensure_ascii=False)

@@ -35,6 +35,9 @@ SIGNATURES = (
 #: Largest file that is read: a table of a million rows.
 MOST_BYTES = 64 * 2**20
 
+#: Longest path that a message shows whole.
+LONGEST = 400
+
 
 class FileError(ValueError):
     """A file that cannot be read as text; the message begins with its path."""
@@ -80,7 +83,8 @@ def _bytes(path, remedy):
             raise FileError(f"{path}: has {kind.st_size / 2**20:.0f} MiB, more than {MOST_BYTES >> 20}; {remedy}")
         return path.read_bytes()
     except OSError as error:
-        raise FileError(f"{path}: {error.strerror}; {remedy}") from None
+        name = str(path) if len(str(path)) <= LONGEST else f"{str(path)[:LONGEST]}…"
+        raise FileError(f"{name}: {error.strerror}; {remedy}") from None
     except ValueError as error:
         if isinstance(error, FileError):
             raise

@@ -127,6 +127,8 @@ class Tables(Inputs):
             ("blanks around cells", self.text(cell=lambda value: f"  {value} "), ""),
             ("exponents", self.text(cell=lambda value: f"{value:+.5E}"), ""),
             ("typographic minus", plain.replace("-", "\N{MINUS SIGN}"), ""),
+            ("a spreadsheet's note of its separator", "sep=;\n" + self.text(separator=";"), 'separator = ";"'),
+            ("a column without a head", ",r_nm,z_nm\n" + "".join(f"7,{r},{z}\n" for r, z in self.OUTLINE), 'ignore = [""]'),
             ("semicolons", self.text(separator=";"), 'separator = ";"'),
             ("tabs", self.text(separator="\t"), 'separator = "tab"'),
             ("tabs by their letter", self.text(separator="\t"), r'separator = "\t"'),
