@@ -13,6 +13,9 @@ from comparisons.inference.study_keys import QUANTITIES
 #: Quantities that exist only while there is a neck.
 WITH_NECK = ("neck_radius_nm", "bud_diameter_nm")
 
+#: Most points of an outline: the sampler's time is proportional to their number.
+MOST_POINTS = 500
+
 #: The one quantity that may be negative; the others are sizes.
 SIGNED = ("bud_height_nm",)
 
@@ -174,6 +177,10 @@ def contour(folder, keys, where, number):
     r, z = (table.columns[name] for name in names)
     if not len(r):
         raise ValueError(f"{path}: holds no point")
+    used = range(0, len(r), keys["every"])
+    if len(used) > MOST_POINTS:
+        every = math.ceil(len(r) / MOST_POINTS)
+        raise ValueError(f"{path}: has {len(used)} points, more than {MOST_POINTS}; say every = {every} in {where}")
     for row in range(len(r)):
         empty = [name for name in names if math.isnan(table.columns[name][row])]
         if empty:
@@ -184,6 +191,6 @@ def contour(folder, keys, where, number):
     if negative.size:
         what = f"r_nm = {r[negative[0]]:g} is left of the axis"
         raise ValueError(f'{table.place(negative[0])}: {what}; say half_planes = "both", which mirrors such points, in {where}')
-    places = tuple(table.place(row) for row in range(len(r)))
+    places = tuple(table.place(row) for row in used)
     limits = keys["low_us"], keys["high_us"] or 0.0
-    return Contour(number, r, z, keys["z_from"] == "floor", keys["error_nm"], time, *limits, places)
+    return Contour(number, r[used], z[used], keys["z_from"] == "floor", keys["error_nm"], time, *limits, places)

@@ -122,6 +122,7 @@ TABLES = {
         Key("time_us", Number(), "µs: when it was taken, where that is known"),
         Key("low_us", Number(least=0), "µs: earliest time where it is unknown", 0.0),
         Key("high_us", POSITIVE, "µs: latest time where it is unknown"),
+        Key("every", Whole(1, 10**6), "n: of the points only every n-th one counts", 1),
         Key("half_planes", choice("right", "both"), "both: points with r < 0 are mirrored to the right", "right"),
         Key("z_from", choice("rim", "floor"), "where z is 0: at the level of the rim or on the floor of the box", "rim"),
         *LAYOUT,

@@ -160,6 +160,13 @@ class Tables(Inputs):
         floor = "".join(f"{r},{z + 80}\n" for r, z in self.OUTLINE)
         np.testing.assert_array_equal(self.outline("r_nm,z_nm\n" + floor, 'z_from = "floor"'), self.OUTLINE)
 
+    def test_outlines_of_many_points(self):
+        """More than 500 points are refused with the key that thins them out, which keeps the first of every n."""
+        r = np.linspace(0, 79, 1701)
+        content = "r_nm,z_nm\n" + "".join(f"{x},{79 - x}\n" for x in r)
+        self.assert_refused(["o.csv: has 1701 points, more than 500; say every = 4 in [[data]] 1"], BAD_INPUT, lambda: self.outline(content))
+        np.testing.assert_array_equal(self.outline(content, "every = 4")[:, 0], r[::4])
+
     def test_histories(self):
         heads = "time_us,bud_height_nm,bud_height_error_nm\n"
         plain = heads + "".join(f"{t},{y},{d}\n" for t, y, d in self.HISTORY)
