@@ -113,7 +113,8 @@ fs::path find_python(const fs::path& requirements) {
         fewest = std::min(fewest, answer);
     }
     if (best.empty())
-        throw IoError(fmt::format("no Python serves this command: {}install Debian's python3, or {}", refusals, another));
+        throw IoError(
+            fmt::format("no Python serves this command: {}install Debian's python3, or {}", refusals, another));
     return best;
 }
 
