@@ -5,6 +5,7 @@
 #                   SANITIZE=thread: the engine with threads, under the thread sanitizer
 #   make build      build/endoflow and its engines
 #   make install    DESTDIR and prefix as usual          make package   a Debian package in build/
+#   make hero       the README's picture and film, from what make demo made
 #   make bench      what the engines cost here: out/bench/bench.md   (BENCH=--quick: minutes instead of tens of minutes)
 #   make docs       docs/ as HTML in build/docs      make docs-check  run every command of README and docs/
 #   make format     clang-format on all sources          make lint      clang-format, clang-tidy and pyflakes, check only
@@ -40,7 +41,7 @@ ifeq ($(shell id -u),0)
   export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
 endif
 
-.PHONY: all demo test build configure packages test-packages run-demo install package bench docs docs-check format
+.PHONY: all demo announcement hero test build configure packages test-packages run-demo install package bench docs docs-check format
 .PHONY: lint clean
 
 all: build
@@ -61,10 +62,19 @@ build: packages
 	cmake --build $(build) --target programs
 
 # The programs of the demonstration alone: a newcomer waits for no other.
-demo: packages
+announcement:
+	@tools/demo --announce $(CORES) $(engines)
+
+demo: announcement packages
 	@$(MAKE) --no-print-directory configure
 	cmake --build $(build) --target endoflow $(addprefix endoflow-,$(engines))
 	tools/demo $(build) $(CORES) $(engines)
+
+out/demo/hero.webp:
+	@$(MAKE) --no-print-directory demo
+
+hero: out/demo/hero.webp
+	cp out/demo/hero.png out/demo/hero.webp docs/images/
 
 test: test-packages
 	@$(MAKE) --no-print-directory configure

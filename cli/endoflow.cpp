@@ -13,6 +13,7 @@
 #include "process.h"
 #include "shared/case/case_file.h"
 #include "shared/case/resolution.h"
+#include "shared/output/output_size.h"
 #include "shared/parameters/parameter_rendering.h"
 #include "shared/support/console.h"
 #include "shared/support/error.h"
@@ -116,6 +117,9 @@ int check(int argc, char** argv) {
         fmt::print("{}: valid (case '{}')\n", file, parameters.case_.name);
     for (const auto& [engine, what, remedy] : foreseen_inaccuracies(parameters))
         say(stderr, fmt::format("warning: {}: {}; {}\n", engine, what, remedy));
+    for (const std::string& engine : engines)
+        if (const std::string told = much_output(parameters, engine); !told.empty())
+            say(stderr, fmt::format("warning: {}; {}\n", told, less_output));
     return 0;
 }
 

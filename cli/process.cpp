@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "locations.h"
+#include "python.h"
 #include "shared/support/error.h"
 
 namespace endoflow::cli {
@@ -23,13 +24,8 @@ namespace {
     std::vector<char*> raw{first.data()};
     for (auto& argument : copies) raw.push_back(argument.data());
     raw.push_back(nullptr);
-    ::execv(first.c_str(), raw.data());
+    ::execvp(first.c_str(), raw.data());
     throw IoError(fmt::format("{}: cannot be started: {}; build or install it", first, std::strerror(errno)));
-}
-
-std::string python_program() {
-    const char* chosen = std::getenv("ENDOFLOW_PYTHON");
-    return chosen != nullptr ? chosen : ENDOFLOW_PYTHON;
 }
 
 }  // namespace
@@ -52,16 +48,16 @@ void become_program(const std::string& name, const std::vector<std::string>& arg
     become(program_directory() / name, arguments);
 }
 
-void become_python(const fs::path& script, const std::vector<std::string>& arguments) {
+void become_python(const fs::path& package, const std::vector<std::string>& arguments) {
     const fs::path data = data_directory();
     const char* before = std::getenv("PYTHONPATH");
     const std::string path = (data / "python").string() + (before != nullptr ? ":" + std::string(before) : "");
     ::setenv("PYTHONPATH", path.c_str(), 1);
     // Scripts that start runs call this very program.
     ::setenv("ENDOFLOW_PROGRAM", fs::read_symlink("/proc/self/exe").c_str(), 1);
-    std::vector<std::string> all{(data / script).string()};
+    std::vector<std::string> all{(data / package).string()};
     all.insert(all.end(), arguments.begin(), arguments.end());
-    become(python_program(), all);
+    become(find_python(data / package / "requirements.txt"), all);
 }
 
 }  // namespace endoflow::cli

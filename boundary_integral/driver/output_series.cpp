@@ -19,7 +19,7 @@ OutputSeries::OutputSeries(const Parameters& parameters, const MembraneDynamics&
       dynamics_(dynamics),
       flow_(flow),
       output_(output),
-      plan_(parameters.output, goes_on_from.value_or(0.0)),
+      plan_(parameters, goes_on_from.value_or(0.0)),
       sampler_(dynamics.space(), shape_points_per_element * dynamics.space().elements()),
       fields_(field_index(output, goes_on_from)) {}
 

@@ -58,6 +58,7 @@ def summary_lines(metrics, output):
     worst = found["max_hausdorff_distance_time_us"]
     times = ["none" if budding[key] is None else f"{budding[key]:.5g} µs" for key in ("a_us", "b_us")]
     return [
+        metrics["finding"],
         f"budding time         {times[0]} ({labels[0]}), {times[1]} ({labels[1]})",
         f"compared             at {found['times_compared']} times, {first:.4g} to {last:.4g} µs",
         f"mean distance        {found['time_mean_of_mean_distance_nm']:.3g} nm",

@@ -3,6 +3,7 @@
 import errno
 import importlib
 import sys
+from pathlib import Path
 
 from comparisons.errors import BAD_INPUT, INTERRUPTED, IO_FAILURE, StudyError
 
@@ -31,6 +32,23 @@ def remedy(error):
     return "free some space and repeat the command" if full else "choose another directory with -o"
 
 
+def required():
+    """Names of the packages that commands need."""
+    text = (Path(__file__).resolve().parents[1] / "requirements.txt").read_text(encoding="utf-8")
+    return [name for line in text.splitlines() if (name := line.partition("#")[0].strip())]
+
+
+def lacking(error):
+    """What to do about an ImportError."""
+    name = (error.name or "").partition(".")[0]
+    if name not in required():
+        return f"unexpected {type(error).__name__}: {error}; please report this with the command line"
+    return (
+        f"{sys.executable} lacks {name} ({error}); install Debian's python3-{name}, or `{sys.executable} -m pip install {name}`, "
+        "or name another Python in the environment variable ENDOFLOW_PYTHON"
+    )
+
+
 def guarded(command, body):
     """Call body() for an exit code; whatever it raises becomes one line on stderr and an exit code."""
 
@@ -54,7 +72,7 @@ def guarded(command, body):
     except KeyboardInterrupt:
         return INTERRUPTED
     except ImportError as error:
-        return complain(f"{error}; install python3-numpy python3-scipy python3-h5py python3-matplotlib python3-emcee", IO_FAILURE)
+        return complain(lacking(error), IO_FAILURE)
     except OSError as error:
         return complain(f"{error.filename or 'standard output'}: {error.strerror}; {remedy(error)}", IO_FAILURE)
     except Exception as error:  # a user never meets a stack trace; what is wrong here is ours

@@ -3,6 +3,7 @@
 metrics.json (schema_version 1); every key ends in its unit, null stands for "does not exist" (no neck, no budding):
 
     schema_version        1
+    finding               what the comparison found, in one sentence
     runs                  {"a": …, "b": …}: label, directory, engine, version, git, state, exit_reason, end_us, budding_time_us,
                           alarms [{name, time, value, bound, meaning, remedy}],
                           basis {curvature convention, resolution, alarms} in words
@@ -39,6 +40,7 @@ from scipy.integrate import trapezoid
 
 from comparisons.measures.basis import basis
 from comparisons.measures.distances import curve_distance
+from comparisons.measures.finding import finding
 from comparisons.measures.interpolation import InterpolationError
 from endoflow.curves import area_from_axis, resample
 
@@ -73,14 +75,16 @@ def compare_runs(a, b, labels):
     errors = [InterpolationError(run) for run in (a, b)]
     records = [compare_at(a, b, float(time), errors) for time in times]
     differences = case_differences(a.parameters, b.parameters)
+    buds, found = budding(a.event_time("budding"), b.event_time("budding")), summary(records)
     return {
         "schema_version": SCHEMA_VERSION,
+        "finding": finding(a, b, labels, buds, found),
         "runs": {key: describe(run, label) for key, run, label in zip("ab", (a, b), labels)},
         "common_interval_us": [float(times[0]), float(times[-1])],
         "case_differences": differences,
         "warnings": warnings(a, b, differences) + interpolation_warnings(records),
-        "budding": budding(a.event_time("budding"), b.event_time("budding")),
-        "summary": summary(records),
+        "budding": buds,
+        "summary": found,
         "times": records,
     }
 

@@ -69,6 +69,7 @@ def report_html(a, b, metrics, plots, directory):
         "endoflow compare",
         title=escaped(f"{labels[0]} and {labels[1]}: endoflow comparison"),
         heading=escaped(f"{labels[0].capitalize()} and {labels[1]}"),
+        finding=f'<p class="finding">{escaped(metrics["finding"])}</p>',
         subtitle=subtitle(a, b, metrics),
         warnings=warnings(metrics["warnings"]),
         cards="",
@@ -81,17 +82,18 @@ def report_html(a, b, metrics, plots, directory):
 
 
 def source(name):
-    """Text of a file in report/."""
+    """Text of a file in assets/."""
     return (SOURCES / name).read_text(encoding="utf-8")
 
 
-def page(command, title, heading, subtitle, warnings, cards, sections, origin, scripts, colours="", data=""):
-    """A whole page's text; every argument but `scripts`, names of files in report/, is ready HTML or style sheet."""
+def page(command, title, heading, subtitle, warnings, cards, sections, origin, scripts, colours="", data="", finding=""):
+    """A whole page's text; every argument but `scripts`, names of files in assets/, is ready HTML or style sheet."""
     return filled(
         source("page.html"),
         command=escaped(command),
         title=title,
         heading=heading,
+        finding=finding,
         subtitle=subtitle,
         style=source("report.css") + colours,
         warnings=warnings,

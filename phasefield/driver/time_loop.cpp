@@ -32,7 +32,7 @@ TimeLoop::TimeLoop(const Parameters& parameters, RunOutput& output, MPI_Comm com
       communicator_(communicator),
       scheme_(std::move(scheme)),
       model_(parameters.membrane),
-      plan_(parameters.output, start_of(output)),
+      plan_(parameters, start_of(output)),
       events_(parameters.output, closed_radius) {
     if (output.restart_point())
         restart(*output.restart_point());

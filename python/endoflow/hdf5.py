@@ -3,6 +3,8 @@
 try:
     import h5py
 except ImportError:
-    raise ImportError("endoflow needs h5py: install the Debian package python3-h5py, or `pip install h5py`") from None
+    raise ImportError(
+        "endoflow needs h5py: install the Debian package python3-h5py, or `pip install h5py`", name="h5py"
+    ) from None
 
 __all__ = ["h5py"]

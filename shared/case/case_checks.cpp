@@ -204,7 +204,7 @@ void check_times(const Parameters& p, const Require& require) {
                 fmt::format("output.{} = {} µs gives more than {} files or shapes until time.end = {} µs; enlarge it",
                             name, interval, most_outputs, p.time.end));
     };
-    check_interval("shape_interval", p.output.shape_interval);
+    if (p.output.shape_interval > 0) check_interval("shape_interval", p.output.shape_interval);
     if (p.output.field_interval > 0) check_interval("field_interval", p.output.field_interval);
 }
 

@@ -15,9 +15,24 @@ inline constexpr double same_time = 1e-12;
 /// The first multiple of an interval [µs] after a time; never when the interval is 0.
 [[nodiscard]] double next_multiple(double interval, double time);
 
-/// When the next membrane shape after a time [µs] is due, in all engines alike: interval/2⁸, …, interval/4, interval/2,
-/// where the membrane is fastest, then the interval's multiples.
-[[nodiscard]] double next_shape_time(double interval, double time);
+/// When membrane shapes are due, in all engines alike, at times that depend on these three numbers alone [µs].
+struct ShapeTimes {
+    double interval;  // output.shape_interval; 0: chosen
+    double end;       // time.end
+    double first;     // the first time step
+
+    explicit ShapeTimes(const Parameters& parameters);
+
+    /// The next one after a time. With an interval they are interval/2⁸, …, interval/4, interval/2, where the membrane
+    /// is fastest, then its multiples. Chosen, some 400 of them, they are the multiples of an interval that grows with
+    /// the square root of time, never longer than the time itself nor shorter than the first step. It is a power of two
+    /// of a microsecond: all times of a long run that a shorter one reaches are times of the shorter one, too.
+    [[nodiscard]] double after(double time) const;
+
+  private:
+    [[nodiscard]] double chosen_interval(double time) const;
+    [[nodiscard]] double chosen_after(double time) const;
+};
 
 /// The time between checkpoints [s] where one costs `cost`: the wanted `interval`, less (but two seconds) while they
 /// cost below 1 % of the time, so that a kill costs seconds, and more where they would cost above 2 % of it. With an
@@ -29,11 +44,14 @@ inline constexpr double same_time = 1e-12;
 class OutputPlan {
   public:
     /// `start`: of this part of the run, µs.
-    OutputPlan(const OutputParameters& output, double start)
-        : output_(output), last_shape_(start), last_fields_(start) {}
+    OutputPlan(const Parameters& parameters, double start)
+        : shapes_(parameters),
+          field_interval_(parameters.output.field_interval),
+          last_shape_(start),
+          last_fields_(start) {}
 
-    [[nodiscard]] double next_shape() const { return next_shape_time(output_.shape_interval, last_shape_); }
-    [[nodiscard]] double next_fields() const { return next_multiple(output_.field_interval, last_fields_); }
+    [[nodiscard]] double next_shape() const { return shapes_.after(last_shape_); }
+    [[nodiscard]] double next_fields() const { return next_multiple(field_interval_, last_fields_); }
 
     /// Calls write(time) for all shapes due up to a time.
     template <class Write>
@@ -58,7 +76,8 @@ class OutputPlan {
     }
 
   private:
-    OutputParameters output_;
+    ShapeTimes shapes_;
+    double field_interval_;            // µs
     double last_shape_, last_fields_;  // µs, written or past
 };
 

@@ -14,6 +14,7 @@
 #include "shared/output/hdf5_file.h"
 #include "shared/output/live_line.h"
 #include "shared/output/output_plan.h"
+#include "shared/output/output_size.h"
 #include "shared/output/restart_point.h"
 #include "shared/output/run_lock.h"
 #include "shared/output/shapes_file.h"
@@ -145,11 +146,19 @@ struct RunOutput::Implementation {
         log = open_log(directory.log());
         log->info("{} engine, case '{}', {} at t = {} µs", engine.name, parameters.case_.name,
                   restart_point ? "continued" : "started", start);
+        if (engine.row_order == RowOrder::in_time) tell_size(start);
         if (restart_point && kept_shapes == directory.shapes())
             warn(fmt::format("{}: is damaged; the shapes come from {}", directory.shapes_at_checkpoint().string(),
                              directory.shapes().string()));
         if (!lock->doubt().empty()) warn(lock->doubt());
         save_record();
+    }
+
+    void tell_size(double start) {
+        const std::string much = much_output(parameters, engine.name, start);
+        if (much.empty()) return;
+        log->info(much);
+        say(stdout, fmt::format("{}; to write less, {}\n", much, less_output));
     }
 
     void warn(const std::string& message) {

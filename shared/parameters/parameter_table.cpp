@@ -359,8 +359,9 @@ std::vector<ParameterRow> output_rows() {
     using S = OutputParameters;
     return {
         free_on_restart(
-            row("output", "shape_interval", &P::output, &S::shape_interval, "µs", positive(1e9), "",
-                "simulated time between membrane shapes in shapes.h5; earlier ones at 1/256, 1/128, ... 1/2 of it")),
+            row("output", "shape_interval", &P::output, &S::shape_interval, "µs", at_least(0, 1e9), "",
+                "simulated time between membrane shapes in shapes.h5, earlier ones at 1/256, 1/128, ... 1/2 of it; 0 = "
+                "some 400 shapes until time.end, closer early")),
         free_on_restart(row("output", "field_interval", &P::output, &S::field_interval, "µs", at_least(0, 1e9), "",
                             "simulated time between field files for ParaView; 0 = no field files at all")),
         free_on_restart(

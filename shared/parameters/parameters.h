@@ -147,7 +147,7 @@ struct TimeParameters {
 };
 
 struct OutputParameters {
-    double shape_interval = 0.05;
+    double shape_interval = 0;
     double field_interval = 0.5;
     double checkpoint_interval = 30;
     bool stop_at_budding = false;

@@ -23,9 +23,9 @@ class Command(CompareTest):
             self.assertIn("usage: endoflow compare", process.stderr)
 
     def test_missing_library(self):
-        (self.scratch / "matplotlib.py").write_text("raise ImportError('No module named matplotlib')")
+        (self.scratch / "matplotlib.py").write_text("raise ModuleNotFoundError('No module named matplotlib', name='matplotlib')")
         process = compare(self.a, self.b, "-o", self.scratch / "never", PYTHONPATH=str(self.scratch))
-        self.assert_one_line(process, 4, "No module named matplotlib; install .*python3-matplotlib")
+        self.assert_one_line(process, 4, "lacks matplotlib .* install Debian's python3-matplotlib, or .* -m pip install matplotlib")
 
     def test_missing_run(self):
         self.assert_one_line(

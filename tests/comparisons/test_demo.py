@@ -55,16 +55,38 @@ class Demo(CompareTest):
         return subprocess.run(
             [str(ROOT / "tools" / "demo"), str(build), "2", "boundary-integral", "phase-field"],
             cwd=self.scratch,
-            env={**os.environ, "PATH": f"{build}:{os.environ['PATH']}"},
+            env={**os.environ, "PATH": f"{build}:{os.environ['PATH']}", "ENDOFLOW_PYTHON": sys.executable},
             capture_output=True,
             text=True,
-            timeout=120,
+            timeout=1200,
         )
+
+    def test_announcement(self):
+        """Before anything else it says how long it takes and what it will show."""
+        for engines, minutes in ((["boundary-integral"], "a minute or two"), (["boundary-integral", "phase-field"], "about 9 minutes")):
+            words = [str(ROOT / "tools" / "demo"), "--announce", "2", *engines]
+            told = subprocess.run(words, capture_output=True, text=True, check=True).stdout
+            self.assertIn(f"It takes {minutes} on 2 cores", told)
+            self.assertEqual("report.html" in told, len(engines) == 2)
+        rule = re.search(r"^demo: (.*)$", (ROOT / "Makefile").read_text(encoding="utf-8"), re.M)[1]
+        self.assertEqual(rule.split()[0], "announcement")
+
+    def check_pictures(self):
+        """Four moments and a film that ends with the later budding, small enough for a README."""
+        from PIL import Image
+
+        with Image.open(self.scratch / "out" / "demo" / "hero.png") as still:
+            self.assertGreater(min(still.size), 600)
+        with Image.open(self.scratch / "out" / "demo" / "hero.webp") as film:
+            self.assertGreater(film.n_frames, 50)
+        self.assertLess((self.scratch / "out" / "demo" / "hero.webp").stat().st_size, 1.5e6)
 
     def test_page_names_both_budding_times(self):
         process = self.demo()
         self.assertEqual((process.returncode, process.stderr), (0, ""))
+        self.check_pictures()
         page = (self.scratch / "out" / "demo" / "report.html").read_text(encoding="utf-8")
+        self.assertRegex(page, '<p class="finding">Both engines bud: boundary integral at .* µs, phase field at .* µs, .* nm[.]</p>')
         found = re.findall(r'<dt>Budding, (.*?)</dt><dd class="ink-[ab]">([\d.]+) <span class="unit">µs</span>', page)
         self.assertEqual([engine for engine, _ in found], ["boundary integral", "phase field"])
         budding = json.loads((self.scratch / "out" / "demo" / "metrics.json").read_text())["budding"]
@@ -73,6 +95,14 @@ class Demo(CompareTest):
             # Four digits are shown and five said: half a unit of the last one.
             self.assertAlmostEqual(float(shown), budding[key], delta=5e-5)
             self.assertAlmostEqual(float(said), budding[key], delta=5e-6)
+
+class Readme(unittest.TestCase):
+    def test_pictures_are_those_of_the_demonstration(self):
+        """docs/images/hero.* are what `make hero` copies, and the README shows them."""
+        text = (ROOT / "README.md").read_text(encoding="utf-8")
+        for name in ("hero.png", "hero.webp"):
+            self.assertIn(f"docs/images/{name}", text)
+            self.assertLess((ROOT / "docs" / "images" / name).stat().st_size, 1.5e6)
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ from scratch import scratch_directory
 
 import endoflow
 import synthetic
+from comparisons.measures.finding import rounded_up
 from comparisons.measures.interpolation import InterpolationError
 from comparisons.measures.metrics import (
     NoCommonTimeError,
@@ -156,6 +157,55 @@ class DifferentRuns(unittest.TestCase):
         a, b = self.run_with("a", [0.0, 0.1]), self.run_with("b", [0.0, 0.1])
         b.record["state"] = "running"
         self.assertRegex(compare_runs(a, b, LABELS)["warnings"][0], "run B .* did not finish: its state is 'running'")
+
+
+class Finding(unittest.TestCase):
+    """The sentence, whatever the runs did."""
+
+    def setUp(self):
+        self.scratch = scratch_directory(self)
+
+    def run_until(self, name, engine, end, offset=0.0, membrane=None):
+        membrane = membrane or (lambda t: synthetic.budding_membrane(t, 1.0, offset))
+        return endoflow.load(synthetic.write_run(self.scratch / name, engine, membrane, np.linspace(0.0, end, 6), 200))
+
+    def sentence(self, a, b, labels=("boundary integral", "phase field")):
+        return compare_runs(a, b, labels)["finding"]
+
+    def test_both_bud(self):
+        """The membranes are parallel curves, 0.5 nm apart; test_distances_equal_the_offset_at_every_time has the tolerance."""
+        a, b = self.run_until("a", "boundary-integral", 1.0), self.run_until("b", "phase-field", 1.0, 0.5)
+        found = self.sentence(a, b)
+        self.assertRegex(found, "^Both engines bud: boundary integral at 0[.][0-9]{3,4} µs, phase field at 0[.][0-9]{3,4} µs, "
+                                "[0-9.]+ % apart; the membranes never differ by more than 0[.]5[01]* nm[.]$")
+        budding = [run.event_time("budding") for run in (a, b)]
+        for time in budding:
+            self.assertIn(f"at {time:.4g} µs", found)
+        relative = 100 * (budding[1] - budding[0]) / np.mean(budding)
+        self.assertIn(f"{relative:.2g} % apart", found)
+        again = self.run_until("c", "boundary-integral", 1.0)
+        self.assertEqual(self.sentence(a, again, ("first", "second")).partition(";")[::2], (
+            f"Both runs bud: first at {budding[0]:.4g} µs, second at {budding[0]:.4g} µs, at the same time",
+            " the membranes never differ by more than 0 nm."))
+
+    def test_one_buds(self):
+        a = self.run_until("a", "boundary-integral", 1.0)
+        time = a.event_time("budding")
+        short = self.run_until("short", "phase-field", 0.2)
+        start = f"Boundary integral buds at {time:.4g} µs, phase field "
+        self.assertIn(start + "ends before, at 0.2 µs; the membranes never", self.sentence(a, short))
+        open_neck = self.run_until("open", "phase-field", 1.0, membrane=lambda t: synthetic.budding_membrane(t, 1.0, final_angle=2.0))
+        self.assertIn(start + "does not until 1 µs; the", self.sentence(a, open_neck))
+        self.assertIn(f"Phase field buds at {time:.4g} µs, boundary integral ends before", self.sentence(short, a, ("boundary integral", "phase field")))
+
+    def test_none_buds(self):
+        a, b = self.run_until("a", "boundary-integral", 0.2), self.run_until("b", "phase-field", 0.13)
+        self.assertRegex(self.sentence(a, b), "^Neither of the engines buds by 0.13 µs; the membranes never differ by more than .* nm, "
+                                              "shapes interpolated in time included[.]$")
+
+    def test_rounded_up(self):
+        for value, text in ((0.1201, "0.13"), (0.12, "0.12"), (3.01, "3.1"), (0.00099, "0.00099"), (12.3, "13"), (0.0, "0"), (2.1e-7, "2.1·10⁻⁷")):
+            self.assertEqual(rounded_up(value), text)
 
 
 class Pieces(unittest.TestCase):

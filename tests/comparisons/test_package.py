@@ -30,6 +30,7 @@ class Types(unittest.TestCase):
 
 
 @unittest.skipUnless(importlib.util.find_spec("ensurepip"), "venv needs the Debian package python3-venv")
+@unittest.skipUnless(importlib.util.find_spec("flit_core"), "the package is built with flit_core (Debian package flit)")
 class Installed(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -39,11 +40,16 @@ class Installed(unittest.TestCase):
         shutil.copytree(PACKAGE, cls.source / "python", ignore=shutil.ignore_patterns("__pycache__"))
         subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", cls.root / "venv"], check=True)
 
-    def pip(self, *arguments):
-        """pip install; without an index, as on a machine without network."""
-        command = [self.root / "venv" / "bin" / "pip", "--isolated", "install", "--no-index", "--quiet", *arguments]
+    def pip(self, *arguments, venv="venv", code=0):
+        """A command of pip that must end with this exit code; without an index, as on a machine without network."""
+        command = [self.root / venv / "bin" / "pip", "--isolated", *arguments]
         process = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=600, cwd=self.root)
-        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertEqual(process.returncode, code, process.stderr)
+        return process.stdout
+
+    def install(self, *arguments):
+        """What docs/python.md says for a machine without network: Debian has what is needed, and pip does not know its h5py."""
+        self.pip("install", "--no-index", "--quiet", "--no-build-isolation", "--no-deps", *arguments)
 
     def say(self, **environment):
         """What a Python in another place finds."""
@@ -63,7 +69,7 @@ class Installed(unittest.TestCase):
 
     def test_from_the_source_tree(self):
         """The program is the one in PATH, else the tree's own, else there is a line that says how to get it."""
-        self.pip(str(self.source / "python"))
+        self.install(self.source / "python")
         installed = str(next((self.root / "venv" / "lib").glob("python3*/site-packages/endoflow")) / "__init__.py")
         self.assertRegex(self.say(), "^the program endoflow was not found: install its Debian package, or build it")
         built = self.program("source tree", "build", "endoflow")
@@ -71,9 +77,22 @@ class Installed(unittest.TestCase):
         elsewhere = self.program("bin", "endoflow")
         self.assertEqual(self.say(PATH=str(elsewhere.parent)), f"{installed} {elsewhere}")
         self.assertTrue((Path(installed).parent / "py.typed").is_file())
+        left = [path.name for path in (self.source / "python").iterdir()]
+        self.assertEqual(sorted(left), ["endoflow", "notebooks", "pyproject.toml"], "building writes into the source tree")
+
+    def test_dependencies(self):
+        """A bare environment is told what it lacks; extras are asked for by name alone."""
+        wheel = self.root / "endoflow-wheel"
+        self.pip("wheel", "--no-index", "--no-build-isolation", "--no-deps", "--wheel-dir", wheel, self.source / "python")
+        subprocess.run([sys.executable, "-m", "venv", self.root / "bare"], check=True)
+        self.pip("install", "--no-index", "--no-deps", *wheel.glob("*.whl"), venv="bare")
+        lacks = [line.split(" requires ")[1] for line in self.pip("check", venv="bare", code=1).splitlines()]
+        self.assertEqual(lacks, [f"{name}, which is not installed." for name in ("h5py", "numpy")])
+        about = next((self.root / "bare" / "lib").glob("python3*/site-packages/endoflow-*.dist-info")) / "METADATA"
+        self.assertIn("Requires-Dist: xarray ; extra == \"xarray\"\n", about.read_text(encoding="utf-8"))
 
     def test_editable(self):
-        self.pip("--editable", str(self.source / "python"))
+        self.install("--editable", self.source / "python")
         command = [str(self.root / "venv" / "bin" / "python"), "-c", "import endoflow; print(endoflow.__file__)"]
         where = subprocess.run(command, cwd="/", capture_output=True, text=True, timeout=600).stdout.strip()
         self.assertEqual(where, str(self.source / "python" / "endoflow" / "__init__.py"))

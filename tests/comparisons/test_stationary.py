@@ -74,6 +74,7 @@ class BesideARun(unittest.TestCase):
             distances = [record["mean_distance_nm"] for record in metrics["times"]]
             self.assertEqual(metrics["summary"]["final_hausdorff_distance_nm"], 0.0)
             self.assertEqual(metrics["times"][-1]["membrane_area_nm2"]["difference"], 0.0)
+            self.assertEqual(metrics["finding"], f"At {DURATION:g} µs the boundary integral run is within 0 nm of the stationary shape.")
             self.assertTrue(np.all(np.diff(distances) < 0), distances)
 
     def test_its_history_is_constant(self):
@@ -84,6 +85,7 @@ class BesideARun(unittest.TestCase):
 
     def test_two_stationary_shapes(self):
         metrics = self.metrics_of(self.statics, self.statics)
+        self.assertEqual(metrics["finding"], "The two stationary shapes differ by at most 0 nm.")
         self.assertEqual(metrics["summary"]["max_hausdorff_distance_nm"], 0.0)
 
     def test_a_vesicle(self):
@@ -91,6 +93,8 @@ class BesideARun(unittest.TestCase):
             self.scratch / "vesicle", "boundary-integral", lambda t: Spheroid(60.0 - 2 * t), TIMES
         )
         at_rest = synthetic.write_run(self.scratch / "vesicle_statics", "statics", lambda _: Spheroid(58.0), [0.0])
+        other = synthetic.write_run(self.scratch / "other", "phase-field", lambda t: Spheroid(60.0 - t), TIMES)
+        self.assertRegex(self.metrics_of(run, other)["finding"], "^Two closed membranes, compared until .* µs: the membranes never differ by")
         summary = self.metrics_of(run, at_rest)["summary"]
         self.assertAlmostEqual(summary["max_hausdorff_distance_nm"], 2.0, delta=1e-3)  # between the poles
         self.assertAlmostEqual(summary["final_hausdorff_distance_nm"], 0.0, delta=1e-9)

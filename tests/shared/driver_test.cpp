@@ -1,23 +1,36 @@
 // What the drivers of all engines share: when output is due, and what happens to a neck.
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "shared/geometry/meridian.h"
+#include "shared/model/time_scale.h"
 #include "shared/output/neck_events.h"
 #include "shared/output/output_plan.h"
+#include "shared/output/output_size.h"
 
 using namespace endoflow;
 
 namespace {
 
-OutputParameters intervals(double shapes, double fields) {
-    OutputParameters output;
-    output.shape_interval = shapes;
-    output.field_interval = fields;
-    return output;
+Parameters intervals(double shapes, double fields) {
+    Parameters parameters;
+    parameters.output.shape_interval = shapes;
+    parameters.output.field_interval = fields;
+    return parameters;
+}
+
+/// When shapes are due in a run up to `end` that nobody told how often.
+std::vector<double> chosen_times(double end, double start = 0) {
+    Parameters parameters = intervals(0, 0);
+    parameters.time.end = end;
+    OutputPlan plan(parameters, start);
+    std::vector<double> times;
+    plan.shapes_until(end, [&](double due) { times.push_back(due); });
+    return times;
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -54,6 +67,81 @@ TEST_CASE("a shape of an event is written once and delays none that is due", "[d
 TEST_CASE("no fields are due where there is no interval", "[driver]") {
     OutputPlan plan(intervals(0.1, 0), 0);
     CHECK(plan.next_fields() == infinity);
+}
+
+TEST_CASE("some 400 shapes are due, ever further apart, whatever the run's length", "[driver]") {
+    for (double end = 0.1; end < 1e6; end *= 1.37) {
+        INFO(end);
+        const std::vector<double> times = chosen_times(end);
+        // 393 to 426 (output_plan.cpp).
+        CHECK(times.size() > 380);
+        CHECK(times.size() < 440);
+        for (std::size_t i = 2; i < times.size(); ++i) CHECK(times[i] - times[i - 1] >= times[i - 1] - times[i - 2]);
+        CHECK(end - times.back() < end / 140);
+        const auto early = std::lower_bound(times.begin(), times.end(), end / 100) - times.begin();
+        CHECK(early > 30);  // a tenth of the shapes in a hundredth of the time: √time, less the power of two
+    }
+}
+
+TEST_CASE("no shapes are closer than the first step, of which the first one is at most one long", "[driver]") {
+    const double first = first_step(Parameters{});
+    for (const double end : {1e-7, 1e-4, 1e-3, 20.0}) {
+        const std::vector<double> times = chosen_times(end);
+        CHECK(times.size() <= static_cast<std::size_t>(2 * end / first) + 1);
+        if (end > first) CHECK(times.front() <= first);
+        for (std::size_t i = 1; i < times.size(); ++i) CHECK(times[i] - times[i - 1] > first / 2);
+    }
+}
+
+TEST_CASE("a longer run's shapes are a shorter one's, too, and a restart goes on with them", "[driver]") {
+    const std::vector<double> all = chosen_times(20), few = chosen_times(0.01), more = chosen_times(1.3);
+    const auto up_to = [](const std::vector<double>& times, double end) {
+        return std::vector<double>(times.begin(), std::upper_bound(times.begin(), times.end(), end));
+    };
+    const auto holds = [](const std::vector<double>& outer, const std::vector<double>& inner) {
+        return std::includes(outer.begin(), outer.end(), inner.begin(), inner.end());
+    };
+    CHECK(holds(few, up_to(all, 0.01)));
+    CHECK(holds(more, up_to(all, 1.3)));
+    CHECK(holds(few, up_to(more, 0.01)));
+    for (const double start : {1e-9, 0.00123, 0.5, 0.5 * (1 + 1e-14), 7.77, 19.9}) {
+        INFO(start);
+        std::vector<double> rest(all.begin(), all.end());
+        rest.erase(rest.begin(),
+                   std::find_if(rest.begin(), rest.end(), [&](double time) { return later(time, start); }));
+        CHECK(chosen_times(20, start) == rest);
+    }
+}
+
+TEST_CASE("an event between two shapes delays none that is chosen", "[driver]") {
+    OutputPlan plan(intervals(0, 0), 0);
+    std::vector<double> times;
+    for (const double event : {0.0011, 0.00333, 0.7, 0.71, 12.3456})
+        plan.shape_at(event, [&](double due) {
+            if (due != event) times.push_back(due);
+        });
+    const std::vector<double> due = chosen_times(20);
+    CHECK(times == std::vector<double>(due.begin(), due.begin() + static_cast<std::ptrdiff_t>(times.size())));
+}
+
+TEST_CASE("what a run writes is foreseen, and said when it is more than a gigabyte", "[driver]") {
+    Parameters parameters;
+    CHECK(much_output(parameters, "boundary-integral").empty());
+    CHECK(expected_output(parameters, "boundary-integral").field_files == 40);
+    parameters.time.end = 2000;
+    parameters.output.shape_interval = 0.05;
+    parameters.output.field_interval = 0;
+    const OutputSize size = expected_output(parameters, "boundary-integral");
+    CHECK(size.shapes == 40008);
+    CHECK(size.field_files == 0);
+    CHECK_THAT(much_output(parameters, "boundary-integral"),
+               Catch::Matchers::Contains("GB until 2000 µs: 40008 shapes, 0 files of fields"));
+    CHECK(expected_output(parameters, "boundary-integral", 1999.9).shapes == 2);  // of a restart near the end
+    parameters.output.shape_interval = 0;
+    CHECK(much_output(parameters, "boundary-integral").empty());
+    CHECK(expected_output(parameters, "boundary-integral").bytes < size.bytes / 90);
+    parameters.output.field_interval = 0.1;
+    CHECK_THAT(much_output(parameters, "phase-field"), Catch::Matchers::Contains("20000 files of fields"));
 }
 
 TEST_CASE("a neck buds once and closes later", "[driver]") {

@@ -116,7 +116,7 @@ TEST_CASE("values that are fine alone but ask for endless output or memory are r
     };
     refused({"output.shape_interval=1e-9"}, "output.shape_interval");
     refused({"output.field_interval=1e-9"}, "output.field_interval");
-    refused({"time.end=1e9"}, "output.shape_interval");
+    refused({"time.end=1e9"}, "output.field_interval");
     refused({"domain.radius=1e5", "domain.height=1e5", "domain.membrane_height=5e4"},
             "boundary_integral.field_spacing");
     refused({"phase_field.cell_size=1e-9"}, "phase_field.cell_size");
