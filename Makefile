@@ -9,14 +9,19 @@
 #   make bench      what the engines cost here: out/bench/bench.md   (BENCH=--quick: minutes instead of tens of minutes)
 #   make docs       docs/ as HTML in build/docs      make docs-check  run every command of README and docs/
 #   make format     clang-format on all sources          make lint      clang-format, clang-tidy and pyflakes, check only
+#   make portability DISTRIBUTION=trixie [TARGET=demo]   the committed tree in a bare Debian: log in out/portability
 # UNITY=OFF compiles file by file: longer from nothing, shorter after an edit; the choice where a compiler cache is set.
+# WERROR=ON makes warnings errors, in this build directory from then on: for who changes the sources, and where CI is set.
 # PHASEFIELD=OFF leaves the phase-field engine (deal.II, MPI) out of all of them.
 
 PHASEFIELD ?= ON
 UNITY ?= $(if $(CMAKE_CXX_COMPILER_LAUNCHER),OFF,ON)
+WERROR ?= $(if $(CI),ON)
 SANITIZE ?= 0
 BENCH ?=
-CORES ?= $(shell nproc)
+DISTRIBUTION ?= trixie
+TARGET ?= demo
+CORES ?= $(shell tools/cores)
 prefix ?= /usr/local
 
 ifeq ($(SANITIZE),1)
@@ -42,7 +47,7 @@ ifeq ($(shell id -u),0)
 endif
 
 .PHONY: all demo announcement hero test build configure packages test-packages run-demo install package bench docs docs-check format
-.PHONY: lint clean
+.PHONY: lint portability clean
 
 all: build
 
@@ -52,8 +57,10 @@ packages:
 test-packages:
 	@tools/install_packages $(groups) test
 
+# Tests are configured by `make test` alone: nobody else needs Catch2. A build directory that has them keeps them.
 configure:
-	@cmake --preset $(preset) -DENDOFLOW_PHASEFIELD=$(PHASEFIELD) -DENDOFLOW_UNITY=$(UNITY) > $(build).configure.log 2>&1 \
+	@cmake --preset $(preset) -DENDOFLOW_PHASEFIELD=$(PHASEFIELD) -DENDOFLOW_UNITY=$(UNITY) \
+	    $(if $(TESTS),-DENDOFLOW_TESTS=$(TESTS)) $(if $(WERROR),-DENDOFLOW_WERROR=$(WERROR)) > $(build).configure.log 2>&1 \
 	  || { cat $(build).configure.log; exit 1; }
 	@rm -f $(build).configure.log
 
@@ -77,7 +84,7 @@ hero: out/demo/hero.webp
 	cp out/demo/hero.png out/demo/hero.webp docs/images/
 
 test: test-packages
-	@$(MAKE) --no-print-directory configure
+	@$(MAKE) --no-print-directory configure TESTS=ON
 	cmake --build $(build)
 	@$(MAKE) --no-print-directory lint
 	ctest --test-dir $(build) --parallel $(CORES) --output-on-failure --timeout 3600 $(tests)
@@ -102,16 +109,19 @@ docs-check: build
 	python3 tools/docs/check.py $(build)
 
 format:
-	git ls-files '*.h' '*.cpp' | xargs clang-format -i
+	tools/clang_format -i
 
 # clang-tidy sees a target's files together: it looks through the headers of all they include each time it is called. That a
 # file stands by itself, and does not live on what another includes, is what builds with UNITY=OFF see.
 lint:
-	git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
+	tools/clang_format --dry-run --Werror
 	tools/pyflakes
 	tools/unused_using
-	@cmake --preset $(preset) -B $(build)/lint -DENDOFLOW_PHASEFIELD=$(PHASEFIELD) -DENDOFLOW_UNITY=ON > /dev/null
+	@cmake --preset $(preset) -B $(build)/lint -DENDOFLOW_PHASEFIELD=$(PHASEFIELD) -DENDOFLOW_UNITY=ON -DENDOFLOW_TESTS=ON > /dev/null
 	tools/clang_tidy $(build)/lint $(CORES)
+
+portability:
+	tools/portability $(DISTRIBUTION) $(TARGET)
 
 clean:
 	rm -rf build build-debug build-sanitize build-sanitize-thread build-clang

@@ -28,7 +28,10 @@ function(endoflow_part_directory part result)
 endfunction()
 
 add_library(endoflow_warnings INTERFACE)
-target_compile_options(endoflow_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+target_compile_options(endoflow_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
+if(ENDOFLOW_WERROR)
+  target_compile_options(endoflow_warnings INTERFACE -Werror)
+endif()
 if(ENDOFLOW_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Clang's -Wall has it, but clang-tidy does not see it in files that others include. 2: GCC sees it there.
   target_compile_options(endoflow_warnings INTERFACE -Wunused-const-variable=2)

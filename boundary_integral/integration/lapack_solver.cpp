@@ -26,24 +26,24 @@ int set_up(SUNLinearSolver solver, SUNMatrix matrix) {
     Content& content = content_of(solver);
     try {
         content.factors.emplace(Eigen::MatrixXd(values_of(matrix)), "iteration");
-        return SUNLS_SUCCESS;
+        return solver_success;
     } catch (const SolverError& error) {
         content.failure = error.what();
         return SUNLS_LUFACT_FAIL;
     }
 }
 
-int solve(SUNLinearSolver solver, SUNMatrix, N_Vector solution, N_Vector right_hand_side, realtype) {
+int solve(SUNLinearSolver solver, SUNMatrix, N_Vector solution, N_Vector right_hand_side, sunrealtype) {
     values_of(solution) = values_of(right_hand_side);
     content_of(solver).factors->solve_in_place(values_of(solution));
-    return SUNLS_SUCCESS;
+    return solver_success;
 }
 
 int free_solver(SUNLinearSolver solver) {
     delete static_cast<Content*>(solver->content);  // NOLINT(cppcoreguidelines-owning-memory): SUNDIALS' ownership
     solver->content = nullptr;
     SUNLinSolFreeEmpty(solver);
-    return SUNLS_SUCCESS;
+    return solver_success;
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ constexpr int most_failures = 20;  // of one step, by its error or by its iterat
 StiffIntegrator::StiffIntegrator(StiffProblem problem, const StartingPoint& start, const StepLimits& limits)
     : problem_(std::move(problem)),
       time_(start.time),
-      y_(N_VNew_Serial(start.y.size(), context_)),
-      matrix_(SUNDenseMatrix(start.y.size(), start.y.size(), context_)),
+      y_(new_vector(start.y.size(), context_)),
+      matrix_(new_square_matrix(start.y.size(), context_)),
       solver_(lapack_solver(context_, reason_)),
       cvode_(CVodeCreate(CV_BDF, context_)) {
     if (!y_ || !matrix_ || !cvode_) require_success(CV_MEM_FAIL, "CVodeCreate");
@@ -31,19 +31,15 @@ StiffIntegrator::StiffIntegrator(StiffProblem problem, const StartingPoint& star
 
 void StiffIntegrator::set_up(const StartingPoint& start, const StepLimits& limits) {
     void* const cvode = cvode_.get();
-    const auto rate = [](realtype t, N_Vector y, N_Vector ydot, void* self) {
+    const auto rate = [](sunrealtype t, N_Vector y, N_Vector ydot, void* self) {
         return static_cast<StiffIntegrator*>(self)->rate(t, y, ydot);
     };
-    const auto jacobian = [](realtype, N_Vector y, N_Vector, SUNMatrix matrix, void* self, N_Vector, N_Vector,
+    const auto jacobian = [](sunrealtype, N_Vector y, N_Vector, SUNMatrix matrix, void* self, N_Vector, N_Vector,
                              N_Vector) { return static_cast<StiffIntegrator*>(self)->jacobian(y, matrix); };
-    const auto note = [](int, const char*, const char*, char* message, void* self) {
-        auto& reason = static_cast<StiffIntegrator*>(self)->reason_;
-        if (reason.empty()) reason = message;
-    };
     require_success(CVodeInit(cvode, rate, start.time, y_.get()), "CVodeInit");
-    require_success(CVodeSetErrHandlerFn(cvode, note, this), "CVodeSetErrHandlerFn");
+    require_success(note_errors(cvode, context_, reason_), "the error handler");
     require_success(CVodeSetUserData(cvode, this), "CVodeSetUserData");
-    const VectorHandle scales(N_VNew_Serial(start.y.size(), context_));
+    const VectorHandle scales = new_vector(start.y.size(), context_);
     values_of(scales.get()) = problem_.error_scales;
     require_success(CVodeSVtolerances(cvode, 0.0, scales.get()), "CVodeSVtolerances");
     require_success(CVodeSetLinearSolver(cvode, solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
@@ -147,7 +143,7 @@ double StiffIntegrator::first_step() const {
 
 Eigen::VectorXd StiffIntegrator::derivative(double time, int order) const {
     Eigen::VectorXd result(NV_LENGTH_S(y_.get()));
-    const VectorHandle view(N_VMake_Serial(result.size(), result.data(), context_));
+    const VectorHandle view = view_of(result, context_);
     require_success(CVodeGetDky(cvode_.get(), time, order, view.get()), "CVodeGetDky");
     return result;
 }

@@ -1,0 +1,50 @@
+# Libraries that bring no CMake package of their own, as targets endoflow::NAME. pkg-config's names for them are a
+# distribution's; where it knows none, CMake looks for header and library itself (CMAKE_PREFIX_PATH).
+find_package(PkgConfig QUIET)
+
+# endoflow_find_library(NAME HEADER header LIBRARIES names… MODULES names…): the first of pkg-config's modules that is there,
+# or else the header with the first of the libraries.
+function(endoflow_find_library name)
+  cmake_parse_arguments(wanted "" "HEADER" "LIBRARIES;MODULES" ${ARGN})
+  add_library(endoflow_${name} INTERFACE)
+  add_library(endoflow::${name} ALIAS endoflow_${name})
+  foreach(module IN LISTS wanted_MODULES)
+    pkg_check_modules(ENDOFLOW_${module} QUIET IMPORTED_TARGET ${module})
+    if(ENDOFLOW_${module}_FOUND)
+      target_link_libraries(endoflow_${name} INTERFACE PkgConfig::ENDOFLOW_${module})
+      return()
+    endif()
+  endforeach()
+  find_path(ENDOFLOW_${name}_INCLUDE_DIR NAMES ${wanted_HEADER} PATH_SUFFIXES ${name})
+  find_library(ENDOFLOW_${name}_LIBRARY NAMES ${wanted_LIBRARIES})
+  if(NOT ENDOFLOW_${name}_INCLUDE_DIR OR NOT ENDOFLOW_${name}_LIBRARY)
+    list(JOIN wanted_MODULES " or " modules)
+    list(JOIN wanted_LIBRARIES " or " libraries)
+    message(FATAL_ERROR "${name} is missing: pkg-config knows no ${modules}, and there are not both <${wanted_HEADER}> and a "
+                        "library ${libraries} (Debian: tools/install_packages base; elsewhere say where by CMAKE_PREFIX_PATH)")
+  endif()
+  target_include_directories(endoflow_${name} SYSTEM INTERFACE ${ENDOFLOW_${name}_INCLUDE_DIR})
+  target_link_libraries(endoflow_${name} INTERFACE ${ENDOFLOW_${name}_LIBRARY})
+endfunction()
+
+# endoflow_find_hdf5(FLAVOUR…): endoflow::hdf5_FLAVOUR. Debian has the flavours serial and openmpi side by side. Elsewhere
+# there is one HDF5, which serves for both.
+function(endoflow_find_hdf5)
+  foreach(flavour IN LISTS ARGN)
+    add_library(endoflow_hdf5_${flavour} INTERFACE)
+    add_library(endoflow::hdf5_${flavour} ALIAS endoflow_hdf5_${flavour})
+    pkg_check_modules(ENDOFLOW_HDF5_${flavour} QUIET IMPORTED_TARGET hdf5-${flavour})
+    if(ENDOFLOW_HDF5_${flavour}_FOUND)
+      target_link_libraries(endoflow_hdf5_${flavour} INTERFACE PkgConfig::ENDOFLOW_HDF5_${flavour})
+      continue()
+    endif()
+    find_package(HDF5 REQUIRED COMPONENTS C)
+    target_include_directories(endoflow_hdf5_${flavour} SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
+    target_compile_definitions(endoflow_hdf5_${flavour} INTERFACE ${HDF5_C_DEFINITIONS})
+    target_link_libraries(endoflow_hdf5_${flavour} INTERFACE ${HDF5_C_LIBRARIES})
+    if(HDF5_IS_PARALLEL)
+      find_package(MPI REQUIRED COMPONENTS C)
+      target_link_libraries(endoflow_hdf5_${flavour} INTERFACE MPI::MPI_C)
+    endif()
+  endforeach()
+endfunction()
