@@ -1,6 +1,5 @@
 #include "boundary_integral/simulation.h"
 
-#include <cblas.h>
 #include <fmt/format.h>
 #include <sundials/sundials_config.h>
 
@@ -8,22 +7,21 @@
 
 #include "boundary_integral/driver/history_recorder.h"
 #include "boundary_integral/driver/run_loop.h"
+#include "boundary_integral/flow/dense_solver.h"
 #include "boundary_integral/support/parallel.h"
 #include "shared/geometry/initial_curve.h"
+#include "shared/model/exchange.h"
 #include "shared/support/error.h"
 
 namespace endoflow::boundary_integral {
-
-namespace {
 
 void require_offered(const Parameters& parameters) {
     if (parameters.fluid.inertia) {
         throw InputError("fluid.inertia: the boundary-integral engine solves the Stokes equations; set it to false");
     }
+    require_no_bulk(parameters, "boundary-integral");
     require_deformable(parameters);
 }
-
-}  // namespace
 
 EngineIdentity identity(const Parameters& parameters) {
     EngineIdentity identity;
@@ -38,9 +36,11 @@ EngineIdentity identity(const Parameters& parameters) {
 
 ExitReason simulate(const Parameters& parameters, RunOutput& output) {
     require_offered(parameters);
-    // Our own threads share the work; those of OpenBLAS would only spin beside them on matrices of this size.
-    openblas_set_num_threads(1);
-    return run_to_end(parameters, output);
+    hold_blas_to_one_thread();
+    Run run(parameters, output);
+    std::optional<ExitReason> reason;
+    while (!reason) reason = run.step();
+    return *reason;
 }
 
 }  // namespace endoflow::boundary_integral

@@ -5,22 +5,25 @@
 #include <exception>
 
 #include "command_line.h"
-#include "shared/output/run_output.h"
+#include "shared/output/run_files.h"
 #include "shared/support/console.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
 
 namespace endoflow::cli {
 
+/// Whether a restart is asked for no more than what the run has reached, which is said then.
+[[nodiscard]] inline bool nothing_to_do(const RunFiles& output) {
+    if (output.nothing_to_do())
+        say(stdout, fmt::format("already at t = {:.6g} µs, nothing to do; results in {}\n", output.reached_us(),
+                                one_line(output.directory().string())));
+    return output.nothing_to_do();
+}
+
 /// Calls simulate(), which returns an ExitReason, and gives the run's directory its last word, whatever happens.
 /// Returns the exit code; exceptions pass on.
 template <class Simulation>
 [[nodiscard]] int run_to_the_end(RunOutput& output, const Simulation& simulate) {
-    if (output.nothing_to_do()) {
-        say(stdout, fmt::format("already at t = {:.6g} µs, nothing to do; results in {}\n", output.reached_us(),
-                                one_line(output.directory().string())));
-        return 0;
-    }
     try {
         const ExitReason reason = simulate();
         output.finish(reason);

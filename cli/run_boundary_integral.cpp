@@ -5,7 +5,7 @@
 #include "engine_run.h"
 #include "process.h"
 #include "shared/model/exchange.h"
-#include "shared/output/run_output.h"
+#include "shared/output/run_files.h"
 #include "shared/support/fast_blas.h"
 #include "shared/support/interruption.h"
 
@@ -19,8 +19,9 @@ int run(int argc, char** argv) {
     require_no_bulk(request->parameters, "boundary-integral");
     require_one_process("the boundary-integral engine", "; boundary_integral.threads shares its work out");
     install_signal_handlers();
-    RunOutput output(request->parameters, boundary_integral::identity(request->parameters), request->directory,
-                     request->restart ? StartMode::restart : StartMode::fresh);
+    RunFiles output(request->parameters, boundary_integral::identity(request->parameters), request->directory,
+                    request->restart ? StartMode::restart : StartMode::fresh);
+    if (nothing_to_do(output)) return 0;
     return run_to_the_end(output, [&] { return boundary_integral::simulate(request->parameters, output); });
 }
 

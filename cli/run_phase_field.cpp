@@ -15,7 +15,8 @@
 #include "engine_run.h"
 #include "phasefield/simulation.h"
 #include "shared/model/loads.h"
-#include "shared/output/run_output.h"
+#include "shared/output/run_files.h"
+#include "shared/output/run_observer.h"
 #include "shared/support/console.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
@@ -24,29 +25,36 @@ namespace endoflow::cli {
 
 namespace {
 
-/// The first process opens the directory; the others follow when that went well, and get nothing when there is nothing
-/// to do.
-std::unique_ptr<RunOutput> open_output(const RunRequest& request, int rank, int processes) {
-    const StartMode mode = request.restart ? StartMode::restart : StartMode::fresh;
-    const auto open = [&](OutputRole role) {
-        return std::make_unique<RunOutput>(request.parameters, phasefield::identity(processes), request.directory, mode,
-                                           role);
-    };
-    std::unique_ptr<RunOutput> output;
+/// What a process says its run to: to the directory, in the first one.
+struct Output {
+    std::unique_ptr<RunFiles> files;
+    std::unique_ptr<RunObserver> observer;
+
+    [[nodiscard]] RunOutput* get() const { return files ? static_cast<RunOutput*>(files.get()) : observer.get(); }
+};
+
+/// The first process opens the directory; the others follow when that went well. Empty when there is nothing to do.
+Output open_output(const RunRequest& request, int rank, int processes) {
+    Output output;
     std::exception_ptr failure;
     if (rank == 0) {
         try {
-            output = open(OutputRole::owner);
+            output.files =
+                std::make_unique<RunFiles>(request.parameters, phasefield::identity(processes), request.directory,
+                                           request.restart ? StartMode::restart : StartMode::fresh);
         } catch (const std::exception&) {
             failure = std::current_exception();
         }
     }
-    enum { opened, nothing_to_do, failed };
-    int outcome = failure ? failed : output && output->nothing_to_do() ? nothing_to_do : opened;
+    enum { opened, idle, failed };
+    int outcome = failure ? failed : output.files && nothing_to_do(*output.files) ? idle : opened;
     MPI_Bcast(&outcome, 1, MPI_INT, 0, MPI_COMM_WORLD);
     if (failure) std::rethrow_exception(failure);
     if (outcome == failed) throw IoError("the first process could not open the run's directory");
-    if (rank != 0 && outcome == opened) return open(OutputRole::observer);
+    if (outcome == idle) return {};
+    if (rank != 0)
+        output.observer = std::make_unique<RunObserver>(request.parameters, phasefield::identity(processes),
+                                                        request.directory, request.restart);
     return output;
 }
 
@@ -56,12 +64,12 @@ std::unique_ptr<RunOutput> open_output(const RunRequest& request, int rank, int 
 /// mpirun does not send.
 class LastWords {
   public:
-    explicit LastWords(RunOutput& output) {
+    explicit LastWords(RunFiles& output) {
         thread_ = std::jthread([&output](const std::stop_token& ended) { watch(output, ended); });
     }
 
   private:
-    static void watch(RunOutput& output, const std::stop_token& ended) {
+    static void watch(RunFiles& output, const std::stop_token& ended) {
         constexpr auto pause = std::chrono::milliseconds(20);
         constexpr int pauses_for_the_step = 35;
         for (int waited = 0; !ended.stop_requested() && waited < pauses_for_the_step;) {
@@ -76,7 +84,7 @@ class LastWords {
     }
 
     /// Whether there is a checkpoint to tell of.
-    static bool leave_word(RunOutput& output) {
+    static bool leave_word(RunFiles& output) {
         try {
             return output.leave_interrupted();
         } catch (const Error& error) {
@@ -102,10 +110,11 @@ int run(int argc, char** argv, int rank, int processes) {
         require_no_loads(request->parameters, "phase-field (scheme paper)");
     install_signal_handlers();
     const auto output = open_output(*request, rank, processes);
-    if (!output) return 0;
+    if (output.get() == nullptr) return 0;
     std::optional<LastWords> last_words;
-    if (processes > 1 && rank == 0) last_words.emplace(*output);
-    return run_to_the_end(*output, [&] { return phasefield::simulate(request->parameters, *output, MPI_COMM_WORLD); });
+    if (processes > 1 && output.files) last_words.emplace(*output.files);
+    RunOutput& said = *output.get();
+    return run_to_the_end(said, [&] { return phasefield::simulate(request->parameters, said, MPI_COMM_WORLD); });
 }
 
 /// One process speaks for all. A failure need not have reached the others, which may be waiting for this process, so

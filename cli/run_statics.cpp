@@ -5,7 +5,7 @@
 #include "locations.h"
 #include "process.h"
 #include "shared/case/case_file.h"
-#include "shared/output/run_output.h"
+#include "shared/output/run_files.h"
 #include "shared/support/interruption.h"
 #include "statics/simulation.h"
 
@@ -44,7 +44,7 @@ int run(int argc, char** argv) {
     if (directory.empty()) directory = std::filesystem::path("out") / case_file.stem() / "statics";
 
     install_signal_handlers();
-    RunOutput output(parameters, statics::identity(parameters), directory, StartMode::fresh);
+    RunFiles output(parameters, statics::identity(parameters), directory, StartMode::fresh);
     return run_to_the_end(output, [&] { return statics::simulate(parameters, request, output); });
 }
 

@@ -7,6 +7,7 @@
 
 #include "shared/case/case_checks.h"
 #include "shared/model/exchange.h"
+#include "shared/output/phase_timer.h"
 #include "shared/parameters/parameter_table.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"

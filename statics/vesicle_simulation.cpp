@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "shared/output/phase_timer.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
 #include "statics/sampled_curve.h"

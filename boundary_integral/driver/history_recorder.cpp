@@ -8,6 +8,7 @@
 #include "boundary_integral/evolution/resolution_estimate.h"
 #include "boundary_integral/flow/free_space_flow.h"
 #include "shared/model/time_scale.h"
+#include "shared/output/phase_timer.h"
 #include "shared/support/error.h"
 
 namespace endoflow::boundary_integral {

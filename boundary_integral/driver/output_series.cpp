@@ -1,17 +1,9 @@
 #include "boundary_integral/driver/output_series.h"
 
 #include "boundary_integral/fields/field_grid.h"
+#include "shared/output/phase_timer.h"
 
 namespace endoflow::boundary_integral {
-
-namespace {
-
-FieldIndex field_index(const RunOutput& output, std::optional<double> goes_on_from) {
-    const RunDirectory directory{output.directory()};
-    return goes_on_from ? FieldIndex(directory, *goes_on_from) : FieldIndex(directory);
-}
-
-}  // namespace
 
 OutputSeries::OutputSeries(const Parameters& parameters, const MembraneDynamics& dynamics, const FlowInterpolant& flow,
                            std::optional<double> goes_on_from, RunOutput& output)
@@ -20,8 +12,11 @@ OutputSeries::OutputSeries(const Parameters& parameters, const MembraneDynamics&
       flow_(flow),
       output_(output),
       plan_(parameters, goes_on_from.value_or(0.0)),
-      sampler_(dynamics.space(), shape_points_per_element * dynamics.space().elements()),
-      fields_(field_index(output, goes_on_from)) {}
+      sampler_(dynamics.space(), shape_points_per_element * dynamics.space().elements()) {}
+
+MembraneCurve OutputSeries::curve_at(double time, const StiffIntegrator& integrator) const {
+    return sampler_(dynamics_.unpack(integrator.state_at(time)), flow_.at(time));
+}
 
 bool OutputSeries::writes_fields() const {
     return parameters_.output.field_interval > 0.0 && dynamics_.box() != nullptr;
@@ -63,7 +58,7 @@ void OutputSeries::write_fields(double time, const MembraneState& state, const F
     const PhaseTimer timer(output_, "fields");
     const QuadGrid grid =
         field_grid(parameters_, dynamics_, state, flow, wall_unknowns, parameters_.boundary_integral.field_spacing);
-    fields_.add(time, vtu_text(grid));
+    output_.write_fields(time, vtu_text(grid));
 }
 
 }  // namespace endoflow::boundary_integral

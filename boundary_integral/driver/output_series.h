@@ -6,7 +6,6 @@
 #include "boundary_integral/evolution/membrane_dynamics.h"
 #include "boundary_integral/evolution/observation.h"
 #include "boundary_integral/integration/stiff_integrator.h"
-#include "shared/output/field_index.h"
 #include "shared/output/output_plan.h"
 #include "shared/output/run_output.h"
 
@@ -28,6 +27,9 @@ class OutputSeries {
     /// The same, and the shape at this very time: of an event, of the end.
     void write_shape_at(double time, const StiffIntegrator& integrator);
 
+    /// The membrane at a time inside the integrator's last step.
+    [[nodiscard]] MembraneCurve curve_at(double time, const StiffIntegrator& integrator) const;
+
   private:
     const Parameters& parameters_;
     const MembraneDynamics& dynamics_;
@@ -35,7 +37,6 @@ class OutputSeries {
     RunOutput& output_;
     OutputPlan plan_;
     CurveSampler sampler_;
-    FieldIndex fields_;
 
     [[nodiscard]] bool writes_fields() const;
     void write_shape(double time, const StiffIntegrator& integrator);

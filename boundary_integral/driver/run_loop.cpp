@@ -12,6 +12,7 @@
 #include "boundary_integral/evolution/refinement.h"
 #include "shared/case/resolution.h"
 #include "shared/model/time_scale.h"
+#include "shared/output/phase_timer.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
 
@@ -73,18 +74,31 @@ class RunLoop {
           start_(start()),
           integrator_(problem(), start_, step_limits(parameters_)) {}
 
-    /// Why the run ended; nothing when it needs more elements.
-    std::optional<ExitReason> execute() {
+    /// What comes before the first step.
+    void open() {
         if (!from_) begin();
         begin_section();
+    }
+
+    /// One step; why the run ended, when it did.
+    std::optional<ExitReason> step() {
         std::optional<ExitReason> reason = ExitReason::interrupted;
         try {
-            reason = advance_to_an_end();
+            reason = step_or_end();
         } catch (const Interrupted&) {
             output_.log_info("a step was given up");
         }
         if (reason) stop();
         return reason;
+    }
+
+    // Only what the state itself says decides, so that a continued run adds elements where the uninterrupted one does.
+    bool needs_more_elements() {
+        if (!may_refine_ || at_end()) return false;
+        const Index now = dynamics_.space().elements();
+        more_elements_ =
+            elements_for(dynamics_.space(), dynamics_.unpack(integrator_.state()), accuracy_of_elements(parameters_));
+        return more_elements_ > now;
     }
 
     /// The same point of the run on more elements.
@@ -98,17 +112,20 @@ class RunLoop {
         return make_checkpoint();
     }
 
+    [[nodiscard]] MembraneCurve shape() const { return series_.curve_at(integrator_.time(), integrator_); }
+
     [[nodiscard]] IntegratorStatistics statistics() const {
         IntegratorStatistics all = integrator_.statistics();
         return all += before_;
     }
 
   private:
-    std::optional<ExitReason> advance_to_an_end() {
-        while (integrator_.time() < parameters_.time.end) {
-            if (needs_more_elements()) return std::nullopt;
+    [[nodiscard]] bool at_end() const { return integrator_.time() >= parameters_.time.end; }
+
+    std::optional<ExitReason> step_or_end() {
+        if (!at_end()) {
             if (integrator_.statistics().steps == next_start_) start_anew();
-            if (interruption_signal() != 0) return ExitReason::interrupted;
+            if (output_.stop_requested()) return ExitReason::interrupted;
             if (output_.checkpoint_due()) output_.write_checkpoint(resume_);
             advance();
             const Evaluation accepted = dynamics_.evaluate(integrator_.state(), operators_);
@@ -117,8 +134,13 @@ class RunLoop {
             series_.write_until(integrator_.time(), integrator_);
             history_.record(integrator_.time(), accepted, integrator_);
         }
+        if (!at_end()) return std::nullopt;
         series_.write_shape_at(integrator_.time(), integrator_);
         return ExitReason::done;
+    }
+
+    void give_up_if_asked() const {
+        if (output_.stop_requested()) throw Interrupted();
     }
 
     Parameters parameters_;  // resolved
@@ -188,15 +210,6 @@ class RunLoop {
         return {0.0, first_step(parameters_), dynamics_.initial_vector()};
     }
 
-    // Only what the state itself says decides, so that a continued run adds elements where the uninterrupted one does.
-    bool needs_more_elements() {
-        if (!may_refine_) return false;
-        const Index now = dynamics_.space().elements();
-        more_elements_ =
-            elements_for(dynamics_.space(), dynamics_.unpack(integrator_.state()), accuracy_of_elements(parameters_));
-        return more_elements_ > now;
-    }
-
     void make_operators(const Eigen::VectorXd& predicted) {
         if (operators_ && predicted == predicted_) return;
         const PhaseTimer timer(output_, "flow operators");
@@ -207,11 +220,11 @@ class RunLoop {
     StiffProblem problem() {
         StiffProblem problem;
         problem.begin_step = [this](const Eigen::VectorXd& predicted) {
-            give_up_if_interrupted();
+            give_up_if_asked();
             make_operators(predicted);
         };
         problem.rate = [this](const Eigen::VectorXd& y) {
-            give_up_if_interrupted();
+            give_up_if_asked();
             const PhaseTimer timer(output_, "rates");
             latest_ = dynamics_.evaluate(y, operators_);
             return latest_.rate;
@@ -257,15 +270,45 @@ class RunLoop {
 
 }  // namespace
 
-ExitReason run_to_end(const Parameters& parameters, RunOutput& output) {
-    std::optional<Checkpoint> from = output.restart_point();
-    IntegratorStatistics before;
-    while (true) {
-        RunLoop loop(parameters, from, before, output);
-        if (const auto reason = loop.execute()) return *reason;
-        from = loop.refined();
-        before = loop.statistics();
+class Run::Implementation {
+  public:
+    Implementation(const Parameters& parameters, RunOutput& output) : parameters_(parameters), output_(output) {
+        open(output.restart_point(), {});
     }
+
+    std::optional<ExitReason> step() {
+        if (loop_->needs_more_elements()) {
+            const Checkpoint here = loop_->refined();
+            open(here, loop_->statistics());
+        }
+        return loop_->step();
+    }
+
+    [[nodiscard]] MembraneCurve shape() const { return loop_->shape(); }
+
+  private:
+    Parameters parameters_;
+    RunOutput& output_;
+    std::unique_ptr<RunLoop> loop_;
+
+    void open(const std::optional<Checkpoint>& from, const IntegratorStatistics& before) {
+        loop_.reset();
+        loop_ = std::make_unique<RunLoop>(parameters_, from, before, output_);
+        loop_->open();
+    }
+};
+
+Run::Run(const Parameters& parameters, RunOutput& output)
+    : implementation_(std::make_unique<Implementation>(parameters, output)) {}
+
+Run::~Run() = default;
+
+std::optional<ExitReason> Run::step() {
+    return implementation_->step();
+}
+
+MembraneCurve Run::shape() const {
+    return implementation_->shape();
 }
 
 }  // namespace endoflow::boundary_integral

@@ -3,11 +3,16 @@
 #include <string>
 #include <utility>
 
+#include <cblas.h>
 #include <lapacke.h>
 
 #include "shared/support/error.h"
 
 namespace endoflow::boundary_integral {
+
+void hold_blas_to_one_thread() {
+    openblas_set_num_threads(1);
+}
 
 LuFactors::LuFactors(Eigen::MatrixXd matrix, const char* what) : factors_(std::move(matrix)) {
     const int n = static_cast<int>(factors_.rows());

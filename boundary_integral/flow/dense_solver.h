@@ -1,12 +1,15 @@
 #pragma once
 
-// Dense LU factorisation by LAPACK (dgetrf/dgetrs), column-major.
+// Dense LU factorisation with partial pivoting, column-major: by LAPACK (dgetrf/dgetrs), or by Eigen without it.
 
 #include <vector>
 
 #include <Eigen/Core>
 
 namespace endoflow::boundary_integral {
+
+/// Our own threads share the work; those of a BLAS library would only spin beside them on matrices of this size.
+void hold_blas_to_one_thread();
 
 class LuFactors {
   public:

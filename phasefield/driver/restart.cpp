@@ -4,6 +4,7 @@
 
 #include "phasefield/checkpoint/mesh_checkpoint.h"
 #include "phasefield/driver/time_loop.h"
+#include "shared/output/phase_timer.h"
 #include "shared/support/error.h"
 
 namespace endoflow::phasefield {

@@ -10,6 +10,7 @@
 #include "phasefield/fem/interruption.h"
 #include "shared/geometry/axisymmetric_spline.h"
 #include "shared/model/membrane_energy.h"
+#include "shared/output/phase_timer.h"
 #include "shared/support/error.h"
 
 namespace endoflow::phasefield {

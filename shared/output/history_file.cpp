@@ -17,12 +17,6 @@ namespace {
 
 constexpr std::uintmax_t largest_history = std::uintmax_t{1} << 32;
 
-std::string header(const std::vector<ColumnText>& own_columns) {
-    std::string text;
-    for (const ColumnText& column : all_columns(own_columns)) text += (text.empty() ? "" : ",") + column.name;
-    return text;
-}
-
 std::string number(double value, const std::string& what) {
     if (!std::isfinite(value))
         throw SolverError("not-finite", fmt::format("{} became {}", what, value),
@@ -72,9 +66,27 @@ std::string each_row(const std::filesystem::path& file, const Take& take) {
 
 }  // namespace
 
+std::string history_header(const std::vector<ColumnText>& own_columns) {
+    std::string text;
+    for (const ColumnText& column : all_columns(own_columns)) text += (text.empty() ? "" : ",") + column.name;
+    return text;
+}
+
+std::string history_line(const HistoryRow& row, std::size_t own_columns) {
+    if (row.extra.size() != own_columns)
+        throw std::logic_error("a history row must have one value for each of the engine's own columns");
+    std::string line;
+    for (const auto& column : common_history_columns()) {
+        if (!line.empty()) line += ",";
+        if (const auto value = column.value(row)) line += number(*value, column.name);
+    }
+    for (const double value : row.extra) line += "," + number(value, "a column of history.csv");
+    return line;
+}
+
 HistoryFile::HistoryFile(const std::filesystem::path& file, const std::vector<ColumnText>& own_columns)
     : path_(file), own_columns_(own_columns.size()) {
-    write_file_atomically(file, header(own_columns) + "\n");
+    write_file_atomically(file, history_header(own_columns) + "\n");
     stream_.open(file, std::ios::app);
 }
 
@@ -95,7 +107,7 @@ KeptHistory read_kept_history(const std::filesystem::path& file, const std::vect
             kept.text += line + "\n";
             kept.times.push_back(kept.reached);
         });
-    if (first != header(own_columns))
+    if (first != history_header(own_columns))
         throw IoError(file.string() + ": its columns are not those of this engine; run without --restart");
     kept.text = first + "\n" + kept.text;
     if (const auto rows = static_cast<long>(kept.times.size()); expected_rows && rows != *expected_rows)
@@ -114,15 +126,7 @@ HistoryFile::HistoryFile(const std::filesystem::path& file, const std::vector<Co
 }
 
 void HistoryFile::append(const HistoryRow& row) {
-    if (row.extra.size() != own_columns_)
-        throw std::logic_error("a history row must have one value for each of the engine's own columns");
-    std::string line;
-    for (const auto& column : common_history_columns()) {
-        if (!line.empty()) line += ",";
-        if (const auto value = column.value(row)) line += number(*value, column.name);
-    }
-    for (const double value : row.extra) line += "," + number(value, "a column of history.csv");
-    stream_ << line << '\n' << std::flush;
+    stream_ << history_line(row, own_columns_) << '\n' << std::flush;
     if (!stream_) throw IoError(path_.string() + ": a row cannot be written; check the disk's space and permissions");
     times_.push_back(row.time_us);
 }

@@ -33,6 +33,11 @@ struct KeptHistory {
                                             const std::vector<ColumnText>& own_columns, double last_time_us,
                                             std::optional<long> expected_rows = {});
 
+/// The first line of a history.csv, without its end.
+[[nodiscard]] std::string history_header(const std::vector<ColumnText>& own_columns);
+/// A row's line. Throws SolverError when a value is not finite.
+[[nodiscard]] std::string history_line(const HistoryRow& row, std::size_t own_columns);
+
 /// history.csv: one line per accepted step, on the disk before the next step begins.
 class HistoryFile {
   public:

@@ -18,6 +18,9 @@ using LibraryVersions = std::map<std::string, std::string>;
 /// The present as "2026-01-31T12:34:56Z".
 [[nodiscard]] std::string utc_now();
 
+/// Time since some moment, which no change of the clock moves, s.
+[[nodiscard]] double wall_seconds();
+
 /// CPU time this process has used so far, all threads, s.
 [[nodiscard]] double cpu_seconds();
 

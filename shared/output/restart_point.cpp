@@ -1,4 +1,5 @@
 #include "shared/output/restart_point.h"
+#include "shared/output/checkpoint_file.h"
 
 #include <fmt/format.h>
 

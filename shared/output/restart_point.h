@@ -11,7 +11,7 @@
 
 namespace endoflow {
 
-/// What RunOutput adds to an engine's checkpoint.
+/// What RunFiles adds to an engine's checkpoint.
 namespace checkpoint_entry {
 inline constexpr const char* record = "run_record";  // run.json as of then
 inline constexpr const char* rows = "history_rows";  // rows of history.csv up to its time

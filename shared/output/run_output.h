@@ -1,107 +1,69 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "shared/geometry/membrane_curve.h"
 #include "shared/output/accuracy.h"
 #include "shared/output/checkpoint.h"
-#include "shared/output/history_file.h"
+#include "shared/output/history_columns.h"
 #include "shared/output/run_record.h"
-#include "shared/parameters/parameters.h"
 
 namespace endoflow {
 
-enum class StartMode { fresh, restart };
-
-/// With several processes one owns the directory; the observers read the checkpoint and write nothing.
-enum class OutputRole { owner, observer };
-
-/// The only door to a run's directory: run.json, history.csv, shapes.h5, checkpoint/, log.txt and the live line.
-/// Every process of a parallel run holds one; those of observers do nothing but hand out the checkpoint.
-///
-/// The owner holds the directory's lock. A fresh start in a directory that already holds a run moves that run to
-/// earlier/N/ inside it: nothing is lost. A restart reads and checks all that it needs before it changes anything; then
-/// it drops what was written after the checkpoint and goes on from there.
+/// What an engine may say of a run, and ask. RunFiles writes it into the run's directory, RunObserver is what the other
+/// processes of a parallel run hold, RunMemory keeps it.
 class RunOutput {
   public:
-    /// Creates the directory and its files, run.json with state "running". Throws IoError, and InputError for a restart
-    /// with another problem than the run's.
-    RunOutput(const Parameters& parameters, EngineIdentity engine, std::filesystem::path directory, StartMode mode,
-              OutputRole role = OutputRole::owner);
-    ~RunOutput();
+    RunOutput() = default;
+    virtual ~RunOutput() = default;
     RunOutput(const RunOutput&) = delete;
     RunOutput& operator=(const RunOutput&) = delete;
 
-    [[nodiscard]] const std::filesystem::path& directory() const;
+    /// Where an engine puts what its processes write together: meshes, fields. Empty where a run has no directory.
+    [[nodiscard]] virtual const std::filesystem::path& directory() const = 0;
 
     /// The checkpoint to continue from: set in a restart, empty in a fresh run.
-    [[nodiscard]] const std::optional<Checkpoint>& restart_point() const;
+    [[nodiscard]] virtual const std::optional<Checkpoint>& restart_point() const = 0;
 
-    /// True when a restart is asked for no more than what the run has reached: nothing was touched, and nothing may be
-    /// called but directory() and reached_us().
-    [[nodiscard]] bool nothing_to_do() const;
-    /// The time up to which the run had got when this part of it began [µs].
-    [[nodiscard]] double reached_us() const;
+    /// Whether the run is asked to stop, from its next step on.
+    [[nodiscard]] virtual bool stop_requested() const = 0;
 
-    /// Appends to history.csv and moves the live line. wall_s is filled in here. What leaves its bound of
-    /// accuracy_bounds() becomes an alarm; beyond its limit, SolverError is thrown, by all processes alike.
-    void record_step(HistoryRow row);
+    /// A row of the history; wall_s is filled in. What leaves its bound of accuracy_bounds() becomes an alarm; beyond
+    /// its limit, SolverError is thrown, by all processes alike.
+    virtual void record_step(HistoryRow row) = 0;
     /// The same bounds for a quantity that is in no column of the history.
-    void watch(const AccuracyBound& bound, double time_us, double value);
-    void count_rejected_step();
+    virtual void watch(const AccuracyBound& bound, double time_us, double value) = 0;
+    virtual void count_rejected_step() = 0;
 
-    /// Appends to shapes.h5.
-    void write_shape(double time_us, const MembraneCurve& curve);
+    virtual void write_shape(double time_us, const MembraneCurve& curve) = 0;
+    /// Fields that one process computed, as a file for ParaView.
+    virtual void write_fields(double time_us, const std::string& vtu) = 0;
 
     /// run.json events: {"budding": {"time_us": …, what is measured on the shape then, null without a neck…}}. A name
     /// recorded before is not replaced.
-    void record_event(const std::string& name, double time_us, const ShapeMeasures& shape);
+    virtual void record_event(const std::string& name, double time_us, const ShapeMeasures& shape) = 0;
 
     /// run.json notes: anything an engine wants to say about the run as a whole.
-    void note(const std::string& key, const nlohmann::ordered_json& value);
+    virtual void note(const std::string& key, const nlohmann::ordered_json& value) = 0;
 
     /// Adds to the phase's totals in run.json, s.
-    void add_phase_time(const std::string& phase, double wall_s, double cpu_s);
+    virtual void add_phase_time(const std::string& phase, double wall_s, double cpu_s) = 0;
 
-    /// One line into log.txt; warnings also to stderr.
-    void log_info(const std::string& message);
-    void log_warning(const std::string& message);
+    /// One line of the log; warnings are also shown.
+    virtual void log_info(const std::string& message) = 0;
+    virtual void log_warning(const std::string& message) = 0;
 
-    /// True when checkpoint_pause() of wall time has passed since the last checkpoint.
-    [[nodiscard]] bool checkpoint_due() const;
-    void write_checkpoint(const Checkpoint& checkpoint);
+    /// Whether it is time for a checkpoint.
+    [[nodiscard]] virtual bool checkpoint_due() const = 0;
+    virtual void write_checkpoint(const Checkpoint& checkpoint) = 0;
 
-    /// The last word of a run that ended well or was interrupted; prints how far it got and where its results are.
-    void finish(ExitReason reason);
-    /// For a run that may be killed before it reaches its next checkpoint: run.json as of the last one, with the state
-    /// "interrupted"; false when there is none. Any thread may call it while another one computes.
-    bool leave_interrupted();
-    /// The last word of a run that a failure ended; the message goes to log.txt and run.json.
-    void finish_with_error(const std::string& message);
-
-  private:
-    struct Implementation;
-    std::unique_ptr<Implementation> implementation_;
-};
-
-/// Measures wall and CPU time of a phase from construction to destruction and adds it to run.json.
-class PhaseTimer {
-  public:
-    PhaseTimer(RunOutput& output, std::string phase);
-    ~PhaseTimer();  // NOLINT(bugprone-exception-escape)
-    PhaseTimer(const PhaseTimer&) = delete;
-    PhaseTimer& operator=(const PhaseTimer&) = delete;
-
-  private:
-    RunOutput& output_;
-    std::string phase_;
-    double wall_start_;
-    double cpu_start_;
+    /// The last word of a run that ended well or was interrupted.
+    virtual void finish(ExitReason reason) = 0;
+    /// The last word of a run that a failure ended.
+    virtual void finish_with_error(const std::string& message) = 0;
 };
 
 }  // namespace endoflow

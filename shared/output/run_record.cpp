@@ -123,6 +123,30 @@ void begin_segment(RunRecord& record, const Parameters& parameters, const Engine
     record["threads"] = engine.threads;
 }
 
+bool add_event(RunRecord& record, const std::string& name, double time_us, const ShapeMeasures& shape) {
+    if (record["events"].contains(name)) return false;
+    RunRecord event = {{"time_us", time_us}};
+    for (const auto& [key, value] : shape_values(shape)) event[key] = value ? RunRecord(*value) : RunRecord();
+    record["events"][name] = event;
+    return true;
+}
+
+void add_rejected_step(RunRecord& record) {
+    auto& rejected = record["steps"]["rejected"];
+    rejected = rejected.get<long>() + 1;
+}
+
+void add_phase_time(RunRecord& record, const std::string& phase, double wall_s, double cpu_s) {
+    auto& totals = record["phases"][phase];
+    if (totals.is_null()) totals = {{"wall_s", 0.0}, {"cpu_s", 0.0}};
+    totals["wall_s"] = totals["wall_s"].get<double>() + wall_s;
+    totals["cpu_s"] = totals["cpu_s"].get<double>() + cpu_s;
+}
+
+std::string state_after(ExitReason reason) {
+    return reason == ExitReason::interrupted ? "interrupted" : "finished";
+}
+
 bool ended_in_order(const RunRecord& record) {
     return record.at("state") != "running";
 }

@@ -54,6 +54,15 @@ void require_continuable(const RunRecord& record, const Parameters& parameters, 
 /// run begins, and with which values of the parameters that a restart may change.
 void begin_segment(RunRecord& record, const Parameters& parameters, const EngineIdentity& engine, double begin_us);
 
+/// What an engine says in a run goes into its record. An event recorded before is not replaced: false.
+bool add_event(RunRecord& record, const std::string& name, double time_us, const ShapeMeasures& shape);
+void add_rejected_step(RunRecord& record);
+/// Adds to the phase's totals, s.
+void add_phase_time(RunRecord& record, const std::string& phase, double wall_s, double cpu_s);
+
+/// The state of a run that ended without an error.
+[[nodiscard]] std::string state_after(ExitReason reason);
+
 /// Whether the run that the record tells of had its last word: it is neither running nor was it killed.
 [[nodiscard]] bool ended_in_order(const RunRecord& record);
 

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "shared/output/hdf5_file.h"
 #include "shared/output/output_plan.h"
+#include "shared/output/shape_columns.h"
 #include "shared/support/error.h"
 #include "shared/support/version.h"
 
@@ -15,38 +14,8 @@ namespace endoflow {
 
 namespace {
 
-struct Column {
-    const char* name;
-    const char* unit;
-    const char* meaning;
-    std::vector<double> MembraneCurve::*values;
-};
-
-constexpr std::array columns{
-    Column{"s", "nm", "arc length from the axis", &MembraneCurve::s},
-    Column{"r", "nm", "distance from the axis", &MembraneCurve::r},
-    Column{"z", "nm", "height", &MembraneCurve::z},
-    Column{"c", "1", "concentration of curvature-inducing molecules", &MembraneCurve::c},
-    Column{"lambda", "pN/nm", "membrane tension of the sharp model", &MembraneCurve::lambda},
-    Column{"kappa", "1/nm", "total curvature, positive on an endocytic bud", &MembraneCurve::kappa},
-    Column{"u_r", "nm/us", "radial velocity of the membrane material", &MembraneCurve::u_r},
-    Column{"u_z", "nm/us", "vertical velocity of the membrane material", &MembraneCurve::u_z},
-};
-
 std::string group_name(int index) {
     return fmt::format("/shapes/{:06d}", index);
-}
-
-void require_finite(const MembraneCurve& curve) {
-    for (const auto& column : columns) {
-        const auto& values = curve.*column.values;
-        if (values.size() != curve.size())
-            throw std::logic_error("all columns of a membrane curve must have the same length");
-        if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
-            throw SolverError("not-finite", fmt::format("{} of the membrane is not finite", column.name),
-                              "the step that led here should have been rejected: lower time.tolerance or "
-                              "time.max_step");
-    }
 }
 
 }  // namespace
@@ -57,7 +26,7 @@ int count_shapes(const std::filesystem::path& file, double last_time_us) {
     for (const auto& name : hdf5.members("/shapes")) {
         const std::string group = "/shapes/" + name;
         if (later(hdf5.read_number_attribute(group, "time"), last_time_us)) continue;
-        for (const auto& column : columns) (void)hdf5.read_array(group + "/" + column.name);
+        for (const auto& column : shape_columns) (void)hdf5.read_array(group + "/" + column.name);
         ++count;
     }
     return count;
@@ -67,7 +36,7 @@ ShapesFile::ShapesFile(const std::filesystem::path& file) : path_(file) {
     Hdf5File hdf5(file, Hdf5File::Mode::create);
     hdf5.write_attribute("/", "written_by", written_by());
     hdf5.create_group("/shapes");
-    for (const auto& column : columns)
+    for (const auto& column : shape_columns)
         hdf5.write_attribute("/shapes", fmt::format("{}_unit", column.name), column.unit);
     hdf5.flush();
 }
@@ -92,7 +61,7 @@ void ShapesFile::append(double time_us, const MembraneCurve& curve) {
     hdf5.create_group(group);
     hdf5.write_attribute(group, "time", time_us);
     hdf5.write_attribute(group, "time_unit", "us");
-    for (const auto& column : columns) {
+    for (const auto& column : shape_columns) {
         const std::string name = group + "/" + column.name;
         hdf5.write_array(name, curve.*column.values);
         hdf5.write_attribute(name, "unit", column.unit);

@@ -10,6 +10,7 @@
 #include "boundary_integral/modes/spectrum.h"
 #include "boundary_integral/simulation.h"
 #include "shared/output/hdf5_file.h"
+#include "shared/output/run_files.h"
 #include "shared/support/error.h"
 
 namespace {
@@ -55,7 +56,7 @@ TEST_CASE("the modes of a run's directory are those of its shapes", "[modes]") {
     const ScratchDirectory scratch;
     const Parameters parameters = short_run();
     {
-        RunOutput output(parameters, identity(parameters), scratch.path, StartMode::fresh);
+        RunFiles output(parameters, identity(parameters), scratch.path, StartMode::fresh);
         output.finish(simulate(parameters, output));
     }
     const RecordedRun run(scratch.path);
@@ -80,7 +81,7 @@ TEST_CASE("perturbations of a run's start: the worst is worse than any other", "
     const ScratchDirectory scratch;
     const Parameters parameters = short_run();
     {
-        RunOutput output(parameters, identity(parameters), scratch.path, StartMode::fresh);
+        RunFiles output(parameters, identity(parameters), scratch.path, StartMode::fresh);
         output.finish(simulate(parameters, output));
     }
     const AlongRun run(RecordedRun(scratch.path), 1, 2);
@@ -112,7 +113,7 @@ TEST_CASE("a run whose membrane a force pulls has no modes, one under tension an
     parameters.fluid.pressure_difference = 1e-3;
     const auto recorded = [&](const char* name) {
         {
-            RunOutput output(parameters, identity(parameters), scratch.path / name, StartMode::fresh);
+            RunFiles output(parameters, identity(parameters), scratch.path / name, StartMode::fresh);
             output.finish(simulate(parameters, output));
         }
         return RecordedRun(scratch.path / name);

@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "boundary_integral/simulation.h"
+#include "shared/output/checkpoint_file.h"
 #include "shared/output/run_directory.h"
+#include "shared/output/run_files.h"
 
 namespace endoflow::boundary_integral::testing {
 
@@ -62,7 +64,7 @@ inline double at_time(const Table& history, const std::string& column, double ti
 }
 
 inline ExitReason run(const Parameters& parameters, const fs::path& directory, StartMode mode = StartMode::fresh) {
-    RunOutput output(parameters, boundary_integral::identity(parameters), directory, mode);
+    RunFiles output(parameters, boundary_integral::identity(parameters), directory, mode);
     const ExitReason reason = boundary_integral::simulate(parameters, output);
     output.finish(reason);
     return reason;

@@ -10,7 +10,7 @@
 #include "phasefield/solver/linear_system.h"
 #include "shared/output/atomic_file.h"
 #include "shared/output/run_directory.h"
-#include "shared/output/run_output.h"
+#include "shared/output/run_files.h"
 #include "shared/support/error.h"
 #include "small_case.h"
 
@@ -85,7 +85,7 @@ TEST_CASE("rejected steps in a row end in a run that goes on", "[faults]") {
     const TemporaryDirectory scratch;
     Parameters p = short_run();
     p.phase_field.paper.max_motion = 1e-3;  // nm: a step of 1e-5 µs moves the membrane farther
-    RunOutput output(p, identity(1), scratch.path() / "run", StartMode::fresh, OutputRole::owner);
+    RunFiles output(p, identity(1), scratch.path() / "run", StartMode::fresh);
     CHECK(simulate(p, output, MPI_COMM_SELF) == ExitReason::done);
     output.finish(ExitReason::done);
     const std::string record = read_file(RunDirectory{scratch.path() / "run"}.record(), 1 << 20);
@@ -98,7 +98,7 @@ TEST_CASE("with the sign of Sec. 3 energy comes from nowhere, which is an error 
     p.phase_field.paper.force_sign = ForceSign::minus;
     p.phase_field.paper.step_rule = StepRule::ramp;
     p.time.end = 1;
-    RunOutput output(p, identity(1), scratch.path() / "run", StartMode::fresh, OutputRole::owner);
+    RunFiles output(p, identity(1), scratch.path() / "run", StartMode::fresh);
     try {
         simulate(p, output, MPI_COMM_SELF);
         FAIL("the energy cannot grow for ever");
@@ -111,7 +111,7 @@ TEST_CASE("steps that are always rejected end in an error with a name, and no ro
     const TemporaryDirectory scratch;
     Parameters p = short_run();
     p.phase_field.paper.max_motion = 1e-12;
-    RunOutput output(p, identity(1), scratch.path() / "run", StartMode::fresh, OutputRole::owner);
+    RunFiles output(p, identity(1), scratch.path() / "run", StartMode::fresh);
     try {
         simulate(p, output, MPI_COMM_SELF);
         FAIL("no step can be that small");

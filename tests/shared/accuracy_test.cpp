@@ -3,6 +3,7 @@
 
 #include "run_helpers.h"
 #include "shared/output/accuracy.h"
+#include "shared/output/run_observer.h"
 #include "temporary_directory.h"
 
 using namespace endoflow;
@@ -36,7 +37,7 @@ TEST_CASE("a quantity that leaves its bound is one alarm in run.json, its larges
     const auto root = directory.path() / "run";
     const auto record = [&] { return nlohmann::json::parse(content(root / "run.json")); };
     {
-        RunOutput output(Parameters{}, sharp_engine(), root, StartMode::fresh);
+        RunFiles output(Parameters{}, sharp_engine(), root, StartMode::fresh);
         output.record_step(balanced_row(0.1, 5e-7));
         output.write_shape(0.1, small_curve(1));
         CHECK(record()["alarms"].empty());
@@ -48,7 +49,7 @@ TEST_CASE("a quantity that leaves its bound is one alarm in run.json, its larges
         checkpoint.time_us = 0.4;
         output.write_checkpoint(checkpoint);
     }
-    RunOutput output(Parameters{}, sharp_engine(), root, StartMode::restart);
+    RunFiles output(Parameters{}, sharp_engine(), root, StartMode::restart);
     output.record_step(balanced_row(0.5, 7e-3));
     output.finish(ExitReason::done);
     const auto alarms = record()["alarms"];
@@ -65,9 +66,8 @@ TEST_CASE("a quantity that leaves its bound is one alarm in run.json, its larges
 
 TEST_CASE("beyond its limit a quantity stops the run under its own name") {
     const TemporaryDirectory directory;
-    RunOutput output(Parameters{}, sharp_engine(), directory.path() / "run", StartMode::fresh);
-    const RunOutput observer(Parameters{}, sharp_engine(), directory.path() / "run", StartMode::fresh,
-                             OutputRole::observer);
+    RunFiles output(Parameters{}, sharp_engine(), directory.path() / "run", StartMode::fresh);
+    const RunObserver observer(Parameters{}, sharp_engine(), directory.path() / "run", false);
     try {
         output.record_step(balanced_row(0.1, 0.6));
         FAIL("no error");
@@ -79,7 +79,7 @@ TEST_CASE("beyond its limit a quantity stops the run under its own name") {
 
 TEST_CASE("rates of a row that settles after a change of the mesh say nothing, states do") {
     const TemporaryDirectory directory;
-    RunOutput output(Parameters{}, sharp_engine(), directory.path() / "run", StartMode::fresh);
+    RunFiles output(Parameters{}, sharp_engine(), directory.path() / "run", StartMode::fresh);
     HistoryRow row = balanced_row(0.1, 0.6);
     row.settling = true;
     CHECK_NOTHROW(output.record_step(row));
@@ -91,7 +91,7 @@ TEST_CASE("rates of a row that settles after a change of the mesh say nothing, s
 TEST_CASE("a membrane that stretches freely need not grow by what flows in") {
     const auto grows_by_itself = [](const Parameters& p) {
         const TemporaryDirectory directory;
-        RunOutput output(p, sharp_engine(), directory.path() / "run", StartMode::fresh);
+        RunFiles output(p, sharp_engine(), directory.path() / "run", StartMode::fresh);
         output.record_step(row_at(0.1, {0, 0, 0, 0.98}));
     };
     Parameters stretches;

@@ -8,10 +8,12 @@
 #include "run_helpers.h"
 #include "shared/output/atomic_file.h"
 #include "shared/output/checkpoint.h"
+#include "shared/output/checkpoint_file.h"
 #include "shared/output/hdf5_file.h"
 #include "shared/output/live_line.h"
 #include "shared/output/output_plan.h"
-#include "shared/output/run_output.h"
+#include "shared/output/run_files.h"
+#include "shared/output/run_observer.h"
 #include "shared/output/shapes_file.h"
 #include "shared/support/console.h"
 #include "shared/support/error.h"
@@ -128,7 +130,7 @@ TEST_CASE("a run's directory: record, events, restart, and an earlier run that i
     const auto root = directory.path() / "run";
     const auto record = [&] { return nlohmann::json::parse(content(root / "run.json")); };
     {
-        RunOutput output(parameters, test_engine(), root, StartMode::fresh);
+        RunFiles output(parameters, test_engine(), root, StartMode::fresh);
         CHECK(record()["state"] == "running");
         output.record_step(row_at(0.5));
         output.write_shape(0.5, small_curve(1));
@@ -142,10 +144,10 @@ TEST_CASE("a run's directory: record, events, restart, and an earlier run that i
         output.record_step(row_at(1.0));
     }
     {
-        RunOutput output(parameters, test_engine(), root, StartMode::restart);
+        RunFiles output(parameters, test_engine(), root, StartMode::restart);
         REQUIRE(output.restart_point().has_value());
         CHECK(output.restart_point()->time_us == 0.5);
-        const RunOutput observer(parameters, test_engine(), root, StartMode::restart, OutputRole::observer);
+        const RunObserver observer(parameters, test_engine(), root, true);
         CHECK(observer.restart_point()->time_us == 0.5);
         output.record_step(row_at(2.0));
         output.finish(ExitReason::done);
@@ -173,21 +175,21 @@ TEST_CASE("a run's directory: record, events, restart, and an earlier run that i
 #endif
 
     std::ofstream(root / "movie.mp4") << "drawn from the earlier run";
-    RunOutput(parameters, test_engine(), root, StartMode::fresh).finish(ExitReason::done);
+    RunFiles(parameters, test_engine(), root, StartMode::fresh).finish(ExitReason::done);
     CHECK(nlohmann::json::parse(content(root / "earlier/1/run.json")) == final_record);
     CHECK(std::filesystem::exists(root / "earlier/1/movie.mp4"));
     CHECK(!std::filesystem::exists(root / "movie.mp4"));
-    CHECK_THROWS_AS(RunOutput(parameters, test_engine(), directory.path() / "empty", StartMode::restart), IoError);
+    CHECK_THROWS_AS(RunFiles(parameters, test_engine(), directory.path() / "empty", StartMode::restart), IoError);
     auto other = test_engine();
     other.name = "phase-field";
-    CHECK_THROWS_AS(RunOutput(parameters, other, root / "earlier/1", StartMode::restart), IoError);
+    CHECK_THROWS_AS(RunFiles(parameters, other, root / "earlier/1", StartMode::restart), IoError);
 }
 
 TEST_CASE("files that stand in a new run's directory are not written over") {
     const TemporaryDirectory directory;
     std::ofstream(directory.path() / "log.txt") << "of somebody else";
     std::filesystem::create_directory(directory.path() / "checkpoint");  // of a start that was killed: nothing to keep
-    RunOutput(Parameters{}, test_engine(), directory.path(), StartMode::fresh).finish(ExitReason::done);
+    RunFiles(Parameters{}, test_engine(), directory.path(), StartMode::fresh).finish(ExitReason::done);
     CHECK(content(directory.path() / "earlier/1/log.txt") == "of somebody else");
     CHECK(!std::filesystem::exists(directory.path() / "earlier/1/checkpoint"));
 }
@@ -196,7 +198,7 @@ TEST_CASE("a directory that cannot be made is one clear error") {
     const TemporaryDirectory directory;
     std::ofstream(directory.path() / "file") << "x";
     try {
-        const RunOutput output(Parameters{}, test_engine(), directory.path() / "file" / "run", StartMode::fresh);
+        const RunFiles output(Parameters{}, test_engine(), directory.path() / "file" / "run", StartMode::fresh);
         FAIL("no error");
     } catch (const IoError& error) {
         CHECK(error.code() == ExitCode::io);

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "run_helpers.h"
+#include "shared/output/checkpoint_file.h"
 #include "shared/output/hdf5_file.h"
 #include "shared/output/run_lock.h"
 #include "shared/parameters/parameter_table.h"
@@ -28,7 +29,7 @@ std::map<std::string, std::string> files(const std::filesystem::path& root) {
 void finish_run(const std::filesystem::path& root) {
     Parameters parameters;
     parameters.time.end = 1.5;
-    RunOutput output(parameters, test_engine(), root, StartMode::restart);
+    RunFiles output(parameters, test_engine(), root, StartMode::restart);
     output.record_step(row_at(1.5));
     output.write_shape(1.5, small_curve(3));
     output.finish(ExitReason::done);
@@ -107,7 +108,7 @@ TEST_CASE("a restart that asks for no more than there is changes nothing") {
     const auto restart = [&](double end) {
         Parameters parameters;
         parameters.time.end = end;
-        const RunOutput output(parameters, test_engine(), root, StartMode::restart);
+        const RunFiles output(parameters, test_engine(), root, StartMode::restart);
         return output.nothing_to_do();
     };
     const auto before = files(root);
@@ -129,7 +130,7 @@ TEST_CASE("a run that was killed between its last row and its end is completed")
     leave_killed_run(root);
     Parameters parameters;
     parameters.time.end = 1;  // the time of its last row
-    CHECK_FALSE(RunOutput(parameters, test_engine(), root, StartMode::restart).nothing_to_do());
+    CHECK_FALSE(RunFiles(parameters, test_engine(), root, StartMode::restart).nothing_to_do());
 }
 
 TEST_CASE("a restart with another problem is refused by name and changes nothing, with other output it is recorded") {
@@ -198,11 +199,11 @@ TEST_CASE("a run's directory belongs to one run at a time") {
     const auto root = directory.path() / "run";
     leave_killed_run(root);
     {
-        const RunOutput holder(Parameters{}, test_engine(), root, StartMode::restart);
+        const RunFiles holder(Parameters{}, test_engine(), root, StartMode::restart);
         const auto before = files(root);
         for (const StartMode mode : {StartMode::fresh, StartMode::restart}) {
             try {
-                const RunOutput second(Parameters{}, test_engine(), root, mode);
+                const RunFiles second(Parameters{}, test_engine(), root, mode);
                 FAIL("no error");
             } catch (const IoError& error) {
                 CHECK_THAT(error.what(),

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "shared/output/atomic_file.h"
-#include "shared/output/run_output.h"
+#include "shared/output/run_files.h"
 #include "shared/support/error.h"
 
 // What the tests of a run's directory write into it.
@@ -36,7 +36,7 @@ inline EngineIdentity test_engine() {
 
 /// A run of three rows and two shapes with its checkpoint at 0.5 µs, left as by a kill.
 inline void leave_killed_run(const std::filesystem::path& root) {
-    RunOutput output(Parameters{}, test_engine(), root, StartMode::fresh);
+    RunFiles output(Parameters{}, test_engine(), root, StartMode::fresh);
     output.write_shape(0, small_curve(1));
     output.record_step(row_at(0.25));
     output.record_step(row_at(0.5));
@@ -49,7 +49,7 @@ inline void leave_killed_run(const std::filesystem::path& root) {
 
 inline std::string refusal_to_restart(const std::filesystem::path& root, const Parameters& parameters = {}) {
     try {
-        const RunOutput output(parameters, test_engine(), root, StartMode::restart);
+        const RunFiles output(parameters, test_engine(), root, StartMode::restart);
     } catch (const Error& error) {
         return error.what();
     }

@@ -1,17 +1,19 @@
-#include "shared/output/run_output.h"
+#include "shared/output/run_files.h"
 
 #include <fmt/format.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/spdlog.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <mutex>
 
 #include "shared/output/atomic_file.h"
+#include "shared/output/checkpoint_file.h"
+#include "shared/output/field_index.h"
 #include "shared/output/hdf5_file.h"
+#include "shared/output/history_file.h"
 #include "shared/output/live_line.h"
 #include "shared/output/output_plan.h"
 #include "shared/output/output_size.h"
@@ -20,14 +22,11 @@
 #include "shared/output/shapes_file.h"
 #include "shared/support/console.h"
 #include "shared/support/error.h"
+#include "shared/support/interruption.h"
 
 namespace endoflow {
 
 namespace {
-
-double wall_seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// For a disk that takes no new file: the state in a run.json that says "running" is replaced in its place.
 void overwrite_state(const std::filesystem::path& file, const std::string& state) {
@@ -55,11 +54,10 @@ std::shared_ptr<spdlog::logger> open_log(const std::filesystem::path& file) {
 
 }  // namespace
 
-struct RunOutput::Implementation {
+struct RunFiles::Implementation {
     RunDirectory directory;
     Parameters parameters;
     EngineIdentity engine;
-    OutputRole role;
     std::optional<Checkpoint> restart_point;
     std::unique_ptr<RunLock> lock;
     RunRecord record;
@@ -79,6 +77,7 @@ struct RunOutput::Implementation {
     std::shared_ptr<spdlog::logger> log;
     std::unique_ptr<HistoryFile> history;
     std::unique_ptr<ShapesFile> shapes;
+    std::optional<FieldIndex> fields;
     std::unique_ptr<LiveLine> live_line;
 
     void start_fresh() {
@@ -88,6 +87,7 @@ struct RunOutput::Implementation {
         record = new_record(parameters, engine);
         history = std::make_unique<HistoryFile>(directory.history(), engine.history_columns);
         shapes = std::make_unique<ShapesFile>(directory.shapes());
+        fields.emplace(directory);
     }
 
     void prepare_restart() {
@@ -131,13 +131,7 @@ struct RunOutput::Implementation {
         record["steps"]["accepted"] = history->rows();
         if (kept_shapes != directory.shapes()) copy_file_atomically(kept_shapes, directory.shapes());
         shapes = std::make_unique<ShapesFile>(directory.shapes(), restart_point->time_us);
-    }
-
-    void observe(StartMode mode) {
-        if (mode == StartMode::restart)
-            take(read_checkpoint(directory));
-        else
-            record = new_record(parameters, engine);
+        fields.emplace(directory, restart_point->time_us);
     }
 
     void open() {
@@ -168,7 +162,6 @@ struct RunOutput::Implementation {
     }
 
     void raise(const Alarm& alarm) {
-        if (role == OutputRole::observer) return;
         warn(alarm.describe());
         save_record();
     }
@@ -221,116 +214,103 @@ struct RunOutput::Implementation {
     }
 };
 
-RunOutput::RunOutput(const Parameters& parameters, EngineIdentity engine, std::filesystem::path directory,
-                     StartMode mode, OutputRole role)
+RunFiles::RunFiles(const Parameters& parameters, EngineIdentity engine, std::filesystem::path directory, StartMode mode)
     : implementation_(std::make_unique<Implementation>()) {
     auto& self = *implementation_;
     self.directory = {std::move(directory)};
     self.parameters = parameters;
     self.engine = std::move(engine);
     self.engine.libraries["hdf5"] = hdf5_version();
-    self.role = role;
     self.accuracy.emplace(parameters, self.engine);
-    if (role == OutputRole::observer)
-        self.observe(mode);
-    else if (mode == StartMode::fresh)
+    if (mode == StartMode::fresh)
         self.start_fresh();
     else
         self.prepare_restart();
-    if (role == OutputRole::observer || self.nothing_to_do) return;
+    if (self.nothing_to_do) return;
     if (mode == StartMode::restart) self.continue_run();
     self.open();
 }
 
-RunOutput::~RunOutput() = default;
+RunFiles::~RunFiles() = default;
 
-const std::filesystem::path& RunOutput::directory() const {
+const std::filesystem::path& RunFiles::directory() const {
     return implementation_->directory.root;
 }
 
-const std::optional<Checkpoint>& RunOutput::restart_point() const {
+const std::optional<Checkpoint>& RunFiles::restart_point() const {
     return implementation_->restart_point;
 }
 
-bool RunOutput::nothing_to_do() const {
+bool RunFiles::stop_requested() const {
+    return interruption_signal() != 0;
+}
+
+bool RunFiles::nothing_to_do() const {
     return implementation_->nothing_to_do;
 }
 
-double RunOutput::reached_us() const {
+double RunFiles::reached_us() const {
     return implementation_->reached;
 }
 
-void RunOutput::record_step(HistoryRow row) {
+void RunFiles::record_step(HistoryRow row) {
     auto& self = *implementation_;
-    if (self.role == OutputRole::owner) {
-        row.wall_s = self.wall();
-        self.history->append(row);
-        self.record["time_us"] = row.time_us;
-        self.record["steps"]["accepted"] = self.record["steps"]["accepted"].get<long>() + 1;
-        if (self.engine.row_order == RowOrder::in_time) self.live_line->update(row);
-    }
+    row.wall_s = self.wall();
+    self.history->append(row);
+    self.record["time_us"] = row.time_us;
+    self.record["steps"]["accepted"] = self.record["steps"]["accepted"].get<long>() + 1;
+    if (self.engine.row_order == RowOrder::in_time) self.live_line->update(row);
     for (const Alarm& alarm : self.accuracy->look_at(row, self.record)) self.raise(alarm);
 }
 
-void RunOutput::watch(const AccuracyBound& bound, double time_us, double value) {
+void RunFiles::watch(const AccuracyBound& bound, double time_us, double value) {
     if (const auto alarm = AccuracyWatch::look_at(bound, time_us, value, implementation_->record))
         implementation_->raise(*alarm);
 }
 
-void RunOutput::count_rejected_step() {
-    if (implementation_->role == OutputRole::observer) return;
-    auto& rejected = implementation_->record["steps"]["rejected"];
-    rejected = rejected.get<long>() + 1;
+void RunFiles::count_rejected_step() {
+    add_rejected_step(implementation_->record);
 }
 
-void RunOutput::write_shape(double time_us, const MembraneCurve& curve) {
-    if (implementation_->role == OutputRole::observer) return;
+void RunFiles::write_shape(double time_us, const MembraneCurve& curve) {
     implementation_->shapes->append(time_us, curve);
 }
 
-void RunOutput::record_event(const std::string& name, double time_us, const ShapeMeasures& shape) {
-    if (implementation_->role == OutputRole::observer) return;
+void RunFiles::write_fields(double time_us, const std::string& vtu) {
+    implementation_->fields->add(time_us, vtu);
+}
+
+void RunFiles::record_event(const std::string& name, double time_us, const ShapeMeasures& shape) {
     auto& self = *implementation_;
-    if (self.record["events"].contains(name)) return;
-    RunRecord event = {{"time_us", time_us}};
-    for (const auto& [key, value] : shape_values(shape)) event[key] = value ? RunRecord(*value) : RunRecord();
-    self.record["events"][name] = event;
+    if (!add_event(self.record, name, time_us, shape)) return;
     self.live_line->finish();
     say(stdout, fmt::format("{} at t = {:.6g} µs\n", name, time_us));
     log_info(fmt::format("{} at t = {:.9g} µs", name, time_us));
     self.save_record();
 }
 
-void RunOutput::note(const std::string& key, const RunRecord& value) {
-    if (implementation_->role == OutputRole::observer) return;
+void RunFiles::note(const std::string& key, const RunRecord& value) {
     implementation_->record["notes"][key] = value;
 }
 
-void RunOutput::add_phase_time(const std::string& phase, double wall_s, double cpu_s) {
-    if (implementation_->role == OutputRole::observer) return;
-    auto& totals = implementation_->record["phases"][phase];
-    if (totals.is_null()) totals = {{"wall_s", 0.0}, {"cpu_s", 0.0}};
-    totals["wall_s"] = totals["wall_s"].get<double>() + wall_s;
-    totals["cpu_s"] = totals["cpu_s"].get<double>() + cpu_s;
+void RunFiles::add_phase_time(const std::string& phase, double wall_s, double cpu_s) {
+    endoflow::add_phase_time(implementation_->record, phase, wall_s, cpu_s);
 }
 
-void RunOutput::log_info(const std::string& message) {
-    if (implementation_->role == OutputRole::observer) return;
+void RunFiles::log_info(const std::string& message) {
     implementation_->log->info(message);
 }
 
-void RunOutput::log_warning(const std::string& message) {
-    if (implementation_->role == OutputRole::observer) return;
+void RunFiles::log_warning(const std::string& message) {
     implementation_->warn(message);
 }
 
-bool RunOutput::checkpoint_due() const {
+bool RunFiles::checkpoint_due() const {
     const auto& self = *implementation_;
-    return self.role == OutputRole::owner && wall_seconds() - self.last_checkpoint > self.seconds_between_checkpoints();
+    return wall_seconds() - self.last_checkpoint > self.seconds_between_checkpoints();
 }
 
-void RunOutput::write_checkpoint(const Checkpoint& checkpoint) {
-    if (implementation_->role == OutputRole::observer) return;
+void RunFiles::write_checkpoint(const Checkpoint& checkpoint) {
     auto& self = *implementation_;
     self.save_record();
     self.save_series();
@@ -348,35 +328,23 @@ void RunOutput::write_checkpoint(const Checkpoint& checkpoint) {
     self.words_if_interrupted = interrupted.dump(2) + "\n";
 }
 
-void RunOutput::finish(ExitReason reason) {
-    if (implementation_->role == OutputRole::observer) return;
-    const bool interrupted = reason == ExitReason::interrupted;
-    implementation_->end(interrupted ? "interrupted" : "finished", to_string(reason));
-    implementation_->tell(interrupted                  ? "interrupted, checkpoint written,"
-                          : reason == ExitReason::done ? "finished"
-                                                       : "ended: " + to_string(reason) + ",");
+void RunFiles::finish(ExitReason reason) {
+    implementation_->end(state_after(reason), to_string(reason));
+    implementation_->tell(reason == ExitReason::interrupted ? "interrupted, checkpoint written,"
+                          : reason == ExitReason::done      ? "finished"
+                                                            : "ended: " + to_string(reason) + ",");
 }
 
-bool RunOutput::leave_interrupted() {
+bool RunFiles::leave_interrupted() {
     auto& self = *implementation_;
-    if (self.role == OutputRole::observer) return false;
     const std::lock_guard<std::mutex> guard(self.saving);
     if (self.words_if_interrupted.empty()) return false;
     write_file_atomically(self.directory.record(), self.words_if_interrupted);
     return true;
 }
 
-void RunOutput::finish_with_error(const std::string& message) {
-    if (implementation_->role == OutputRole::observer) return;
+void RunFiles::finish_with_error(const std::string& message) {
     implementation_->end("failed", message);
-}
-
-PhaseTimer::PhaseTimer(RunOutput& output, std::string phase)
-    : output_(output), phase_(std::move(phase)), wall_start_(wall_seconds()), cpu_start_(cpu_seconds()) {}
-
-// Nothing but a lack of memory can throw here, and that may end the program.
-PhaseTimer::~PhaseTimer() {  // NOLINT(bugprone-exception-escape)
-    output_.add_phase_time(phase_, wall_seconds() - wall_start_, cpu_seconds() - cpu_start_);
 }
 
 }  // namespace endoflow
