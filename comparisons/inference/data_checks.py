@@ -24,6 +24,8 @@ def checked(study, parameters, exact):
     """The StudyFile with outlines whose z is from the rim's level. parameters: resolved, of the case; exact: Unknowns that act
     on finished courses. Raises StudyError."""
     contours = tuple(_inside(study, outline, parameters["domain"]) for outline in study.contours)
+    for datum in study.data:
+        _require_size(study, datum, parameters["domain"])
     earliest, latest = times_of_data(exact, horizon(study, parameters))
     slack = ROUNDING * (latest - earliest)
     for place, key, time, remedy in _times(study.data, contours):
@@ -62,6 +64,15 @@ def times_of_data(exact, end):
             low, high = (float(unknown.prior.value(x)) for x in (unknown.prior.lowest, unknown.prior.highest))
             earliest, latest = earliest + low, latest + high
     return earliest, latest
+
+
+def _require_size(study, datum, domain):
+    """Refuses a length that is larger than the box (the section `domain` of the parameters)."""
+    rim, top, wall = domain["membrane_height"], domain["height"], domain["radius"]
+    most = {"neck_radius_nm": wall, "bud_diameter_nm": 2 * wall, "bud_height_nm": max(rim, top - rim)}.get(datum.column)
+    if domain.get("kind") != "free-space" and most is not None and abs(datum.value) > most:
+        what = f"{datum.column} = {datum.value:g} nm is more than the domain has room for, {most:g} nm"
+        _refuse(study, f"{datum.place}: {what}; {UNIT}")
 
 
 def _inside(study, outline, domain):
