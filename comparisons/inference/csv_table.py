@@ -1,7 +1,7 @@
 """CSV files that people give: columns by name in nm and µs, and the line of each row, or why not in one line.
 
-A line of heads names the columns. Comment lines begin with #; a first line sep=; says no more than the study does. Rows whose cells are all empty are left out, an empty cell is
-nan. Everything else is refused with file, line and the key of the study that would read it.
+A line of heads names the columns. Comment lines begin with #; a first line sep=; says no more than the study does. Rows whose
+cells are all empty are left out, an empty cell is nan. Everything else is refused with file, line and the key of the study that would read it.
 """
 
 import csv
@@ -113,7 +113,8 @@ def _rows(path, text, layout):
                 found.append((start, cells))
             start = reader.line_num + 1
     except csv.Error:
-        raise TableError(f"{path}:{start}: its quotes do not match, or a cell is longer than {csv.field_size_limit()} letters") from None
+        what = f"its quotes do not match, or a cell is longer than {csv.field_size_limit()} letters"
+        raise TableError(f"{path}:{start}: {what}") from None
     return found
 
 

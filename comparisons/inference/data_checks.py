@@ -24,6 +24,8 @@ def checked(study, parameters, exact):
     """The StudyFile with outlines whose z is from the rim's level. parameters: resolved, of the case; exact: Unknowns that act
     on finished courses. Raises StudyError."""
     contours = tuple(_inside(study, outline, parameters["domain"]) for outline in study.contours)
+    for datum in study.data:
+        _require_size(study, datum, parameters["domain"])
     earliest, latest = times_of_data(exact, horizon(study, parameters))
     slack = ROUNDING * (latest - earliest)
     for place, key, time, remedy in _times(study.data, contours):
@@ -64,6 +66,15 @@ def times_of_data(exact, end):
     return earliest, latest
 
 
+def _require_size(study, datum, domain):
+    """Refuses a length that is larger than the box (the section `domain` of the parameters)."""
+    rim, top, wall = domain["membrane_height"], domain["height"], domain["radius"]
+    most = {"neck_radius_nm": wall, "bud_diameter_nm": 2 * wall, "bud_height_nm": max(rim, top - rim)}.get(datum.column)
+    if domain.get("kind") != "free-space" and most is not None and abs(datum.value) > most:
+        what = f"{datum.column} = {datum.value:g} nm is more than the domain has room for, {most:g} nm"
+        _refuse(study, f"{datum.place}: {what}; {UNIT}")
+
+
 def _inside(study, outline, domain):
     """A Contour with z from the rim's level, its points within the box (the section `domain` of the parameters)."""
     if domain.get("kind") == "free-space":
@@ -74,18 +85,21 @@ def _inside(study, outline, domain):
     z = outline.z - rim if outline.from_floor else outline.z
     for place, r, height in zip(outline.places, outline.r, z):
         if r > wall:
-            _refuse(study, f"{place}: r_nm = {r:g} nm is outside the domain, domain.radius = {wall:g}; leave the point out, or say length_unit = \"Å\" or what its unit is")
+            what = f"r_nm = {r:g} nm is outside the domain, domain.radius = {wall:g}"
+            _refuse(study, f"{place}: {what}; leave the point out, or {UNIT}")
         if not -rim <= height <= top - rim:
             if outline.from_floor:
                 given, remedy = f"z_nm = {height + rim:g} nm from the floor", 'leave out z_from = "floor"'
             else:
                 given, remedy = f"z_nm = {height:g} nm from the level of the rim", 'say z_from = "floor" if it is from there'
-            _refuse(study, f"{place}: {given} is outside the domain, {top:g} nm high with the rim at {rim:g}; {remedy}, or length_unit = \"Å\" or what its unit is")
+            what = f"{given} is outside the domain, {top:g} nm high with the rim at {rim:g}"
+            _refuse(study, f"{place}: {what}; {remedy}, or {UNIT}")
     last = int(outline.r.argmax())
     gap, height = wall - outline.r[last], float(z[last])
     if gap < NEAR_WALL * wall and abs(height) > STEEPEST * gap + DEVIATIONS * outline.error:
-        given = f"z_nm = {height:g} nm from the level of the rim at r_nm = {outline.r[last]:g} nm, where the membrane is attached at 0"
-        _refuse(study, f"{outline.places[last]}: {given}; z_from in [[data]] says from where z is measured")
+        given = f"z_nm = {height:g} nm from the level of the rim at r_nm = {outline.r[last]:g} nm"
+        remedy = "z_from in [[data]] says from where z is measured"
+        _refuse(study, f"{outline.places[last]}: {given}, where the membrane is attached at 0; {remedy}")
     return dataclasses.replace(outline, z=z, from_floor=False)
 
 

@@ -78,7 +78,8 @@ def prior_of(kind, numbers):
         raise PriorError(f"prior = {kind!r} needs {' and '.join(missing)}")
     others = [key for key in numbers if key not in (*KINDS[kind], "low", "high")]
     if others:
-        raise PriorError(f"{others[0]} = {numbers[others[0]]:g}: prior = {kind!r} has no {others[0]}; it has {', '.join(KINDS[kind])}")
+        key, own = others[0], ", ".join(KINDS[kind])
+        raise PriorError(f"{key} = {numbers[key]:g}: prior = {kind!r} has no {key}; it has {own}")
     found = _prior(kind, numbers)
     if not np.isfinite([found.scale, *found.value(np.array([found.lowest, found.highest]))]).all():
         raise PriorError(f"prior = {kind!r} reaches beyond the largest number, 1.8e308; take narrower limits")
@@ -102,7 +103,8 @@ def _prior(kind, numbers):
     for key in limits.keys() & numbers.keys():
         limits[key] = (_inner(numbers[key], key, logarithmic) - centre) / scale
     if not limits["low"] < limits["high"] or limits["low"] >= REACH or limits["high"] <= -REACH:
-        raise PriorError(f"low and high leave nothing of the prior, {centre_key} = {numbers[centre_key]:g} with {width_key} = {width:g}")
+        given = f"{centre_key} = {numbers[centre_key]:g} with {width_key} = {width:g}"
+        raise PriorError(f"low and high leave nothing of the prior, {given}")
     return Prior(logarithmic, True, centre, scale, limits["low"], limits["high"])
 
 

@@ -17,8 +17,8 @@ from comparisons.inference.study_file import MOST_UNKNOWNS, is_exact_time_scale
 from comparisons.inference.study_keys import QUANTITIES
 from comparisons.measures.metrics import flat_parameters
 
-#: Largest (prediction − value)/error, in size.
-LARGEST_RESIDUAL = 1e6
+#: Largest (prediction − value)/error, in size: its square is a number, too.
+LARGEST_RESIDUAL = 1e30
 
 #: Digits of a parameter: a run is found again by them.
 DIGITS = 10

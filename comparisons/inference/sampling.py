@@ -94,7 +94,8 @@ def first_walkers(density, start, covariance, generator, count):
     found = []
     while len(found) < count:
         if part < LEAST_SPREAD:
-            raise StudyError("the best fit lies outside of its emulator's region; take other priors", RUN_FAILED)
+            what = "the data leave no probability around the best fit"
+            raise StudyError(f"{what}; check their numbers, units and errors", RUN_FAILED)
         points = start + generator.standard_normal((count, len(start))) @ (part * root).T
         found.extend(points[np.isfinite(density(points))])
         part *= 0.9

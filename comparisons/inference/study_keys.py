@@ -46,6 +46,8 @@ class Unit(Choice):
 PARAMETER = Text('a parameter, "section.key"', r"[A-Za-z_][\w.]*\.\w+")
 PARAMETERS = Texts(PARAMETER, 'a list of parameters, ["section.key", …]')
 FILE = Text("the path of a CSV, relative to the study")
+NAME = Text("plain text on one line without $", r"[^\x00-\x1f\x7f$]*[^\x00-\x20\x7f$][^\x00-\x1f\x7f$]*")
+COLUMNS = Texts(choice(*QUANTITIES), f"a list of some of {', '.join(QUANTITIES)}")
 POSITIVE = Number(above=0)
 
 #: Largest seed: every generator of random numbers takes it, and those that follow it.
@@ -84,7 +86,7 @@ TABLES = {
         Key("seed", Whole(0, MOST_SEED), "of all random numbers", 1),
     ),
     "[[unknown]]": (
-        Key("name", Text("plain text on one line without $", r"[^\x00-\x1f\x7f$]*[^\x00-\x20\x7f$][^\x00-\x1f\x7f$]*"), "how it is called; without it, `key`"),
+        Key("name", NAME, "how it is called; without it, `key`"),
         Key("key", PARAMETER, "the parameter whose value is unknown"),
         Key("scales", PARAMETERS, "parameters that an unknown factor multiplies", ()),
         Key("divides", PARAMETERS, "parameters that the same factor divides", ()),
@@ -105,7 +107,7 @@ TABLES = {
     ),
     "[[data]] run": (
         Key("run", Text("the path of a run's directory, relative to the study"), "directory of a run", needed=True),
-        Key("columns", Texts(choice(*QUANTITIES), f"a list of some of {', '.join(QUANTITIES)}"), "its curves", ("neck_radius_nm",)),
+        Key("columns", COLUMNS, "its curves", ("neck_radius_nm",)),
         Key("error", POSITIVE, "of each number, in the unit of its column", needed=True),
         Key("points", Whole(1, 10000), "numbers taken from each curve", 30),
         Key("from", Number(least=0), "µs: time of the first one; without it, where the curves begin"),

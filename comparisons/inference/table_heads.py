@@ -71,7 +71,8 @@ def _named(cells, needed, allowed, layout):
             raise HeadsRefused(f"ignore: {_quoted(head)} is none of its heads {_listed(cells)}")
     if all(NUMBER.fullmatch(cell) for cell in cells):
         names = json.dumps(list(needed))
-        raise HeadsRefused(f"has numbers where the heads belong; say heads = {names}, the columns in their order, in {layout.where}")
+        remedy = f"say heads = {names}, the columns in their order, in {layout.where}"
+        raise HeadsRefused(f"has numbers where the heads belong; {remedy}")
     by_head = {head: name for name, head in own.items()}
     names = []
     for cell in cells:

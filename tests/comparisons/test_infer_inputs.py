@@ -164,7 +164,8 @@ class Tables(Inputs):
         """More than 500 points are refused with the key that thins them out, which keeps the first of every n."""
         r = np.linspace(0, 79, 1701)
         content = "r_nm,z_nm\n" + "".join(f"{x},{79 - x}\n" for x in r)
-        self.assert_refused(["o.csv: has 1701 points, more than 500; say every = 4 in [[data]] 1"], BAD_INPUT, lambda: self.outline(content))
+        said = "o.csv: has 1701 points, more than 500; say every = 4 in [[data]] 1"
+        self.assert_refused([said], BAD_INPUT, lambda: self.outline(content))
         np.testing.assert_array_equal(self.outline(content, "every = 4")[:, 0], r[::4])
 
     def test_histories(self):
@@ -176,7 +177,11 @@ class Tables(Inputs):
             ("milliseconds", heads + "".join(f"{t / 1000!r},{y},{d}\n" for t, y, d in self.HISTORY), 'time_unit = "ms"'),
             ("micrometres", heads + "".join(f"{t},{y / 1000!r},{d / 1000!r}\n" for t, y, d in self.HISTORY), 'length_unit = "um"'),
             ("cells without data", plain.replace("\n", "\n0.01,,\n", 1).replace("\n", "\n0.01,nan,\n", 1) + ",,0.1\n,NA,\n", ""),
-            ("rows in another order", heads + "".join(f"{d},{y},{t}\n" for t, y, d in self.HISTORY), 'heads = { time_us = "bud_height_error_nm", bud_height_error_nm = "time_us" }'),
+            (
+                "heads exchanged",
+                heads + "".join(f"{d},{y},{t}\n" for t, y, d in self.HISTORY),
+                'heads = { time_us = "bud_height_error_nm", bud_height_error_nm = "time_us" }',
+            ),
         ):
             with self.subTest(what):
                 np.testing.assert_allclose(self.history(content, keys), self.HISTORY, rtol=1e-15)
@@ -202,14 +207,15 @@ class Tables(Inputs):
         )
         data = '[[data]]\nfile = "h.csv"\nerror = 1\n'
         self.assertEqual([datum.time for datum in self.problem(offset + slowness + data).data], [-0.4, 0.85])
-        self.assert_refused(["h.csv:3: time_us = 0.85 µs is after the end of the runs, 0.35 µs"], BAD_INPUT, lambda: self.problem(offset + data))
-        self.assert_refused(["h.csv:2: time_us = -0.4 µs is before the start of the runs, 0 µs"], BAD_INPUT, lambda: self.problem(slowness + data))
+        late = "h.csv:3: time_us = 0.85 µs is after the end of the runs, 0.35 µs"
+        self.assert_refused([late], BAD_INPUT, lambda: self.problem(offset + data))
+        early = "h.csv:2: time_us = -0.4 µs is before the start of the runs, 0 µs"
+        self.assert_refused([early], BAD_INPUT, lambda: self.problem(slowness + data))
 
     def test_the_cases_end_is_the_horizon(self):
         (self.scratch / "h.csv").write_text("time_us,bud_height_nm\n15,5\n25,6\n")
-        self.assert_refused(
-            ["h.csv:3: time_us = 25 µs is after the end of the runs, 20 µs"], BAD_INPUT, lambda: self.problem('[[data]]\nfile = "h.csv"\nerror = 1\n', "")
-        )
+        late = "h.csv:3: time_us = 25 µs is after the end of the runs, 20 µs"
+        self.assert_refused([late], BAD_INPUT, lambda: self.problem('[[data]]\nfile = "h.csv"\nerror = 1\n', ""))
 
 
 class Documented(unittest.TestCase):
