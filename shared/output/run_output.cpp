@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <mutex>
 
 #include "shared/output/atomic_file.h"
@@ -17,6 +16,7 @@
 #include "shared/output/restart_point.h"
 #include "shared/output/run_lock.h"
 #include "shared/output/shapes_file.h"
+#include "shared/output/sudden_end.h"
 #include "shared/support/console.h"
 #include "shared/support/error.h"
 
@@ -24,20 +24,10 @@ namespace endoflow {
 
 namespace {
 
+constexpr std::uintmax_t largest_word = 10000;  // of another process, bytes
+
 double wall_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// For a disk that takes no new file: the state in a run.json that says "running" is replaced in its place.
-void overwrite_state(const std::filesystem::path& file, const std::string& state) {
-    const std::string running = "\"running\"", text = read_file(file, largest_record);
-    const auto place = text.find(running, text.find("\"state\""));
-    std::string word = "\"" + state + "\"";
-    if (place == std::string::npos || word.size() > running.size()) return;
-    word.resize(running.size(), ' ');
-    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
-    stream.seekp(static_cast<std::streamoff>(place));
-    stream << word << std::flush;
 }
 
 std::shared_ptr<spdlog::logger> open_log(const std::filesystem::path& file) {
@@ -79,6 +69,7 @@ struct RunOutput::Implementation {
     std::unique_ptr<HistoryFile> history;
     std::unique_ptr<ShapesFile> shapes;
     std::unique_ptr<LiveLine> live_line;
+    std::unique_ptr<SuddenEnd> sudden_end;  // while the run has had no last word
 
     void start_fresh() {
         directory.make_root();
@@ -137,6 +128,7 @@ struct RunOutput::Implementation {
             take(read_checkpoint(directory));
         else
             record = new_record(parameters, engine);
+        sudden_end = std::make_unique<SuddenEnd>(directory);
     }
 
     void open() {
@@ -149,6 +141,10 @@ struct RunOutput::Implementation {
             warn(fmt::format("{}: is damaged; the shapes come from {}", directory.shapes_at_checkpoint().string(),
                              directory.shapes().string()));
         if (!lock->doubt().empty()) warn(lock->doubt());
+        std::filesystem::remove(directory.word_of_a_process());
+        sudden_end = std::make_unique<SuddenEnd>(directory, record);
+        sudden_end->reached(start, record["steps"]["accepted"].get<long>());
+        if (restart_point) sudden_end->checkpoint_written();
         save_record();
     }
 
@@ -177,6 +173,7 @@ struct RunOutput::Implementation {
     void save_record() {
         record["wall_s"] = wall();
         record["cpu_s"] = cpu_before + cpu_seconds();
+        if (sudden_end) sudden_end->renew(record);
         const std::lock_guard<std::mutex> guard(saving);
         write_file_atomically(directory.record(), record.dump(2) + "\n");
     }
@@ -198,6 +195,7 @@ struct RunOutput::Implementation {
     }
 
     void end(const std::string& state, const std::string& reason) {
+        sudden_end.reset();
         live_line->finish();
         record["state"] = state;
         record["exit_reason"] = reason;
@@ -206,7 +204,7 @@ struct RunOutput::Implementation {
         try {
             save_record();
         } catch (const IoError&) {
-            overwrite_state(directory.record(), state);
+            overwrite_state(directory, state);
             throw;
         }
     }
@@ -258,6 +256,7 @@ void RunOutput::record_step(HistoryRow row) {
         self.history->append(row);
         self.record["time_us"] = row.time_us;
         self.record["steps"]["accepted"] = self.record["steps"]["accepted"].get<long>() + 1;
+        self.sudden_end->reached(row.time_us, self.record["steps"]["accepted"].get<long>());
         if (self.engine.row_order == RowOrder::in_time) self.live_line->update(row);
     }
     for (const Alarm& alarm : self.accuracy->look_at(row, self.record)) self.raise(alarm);
@@ -332,6 +331,7 @@ void RunOutput::write_checkpoint(const Checkpoint& checkpoint) {
     write_checkpoint_file(self.directory.checkpoint(), complete);
     self.last_checkpoint = wall_seconds();
     ++self.checkpoints;
+    self.sudden_end->checkpoint_written();
     RunRecord interrupted = self.record;
     interrupted["state"] = "interrupted";
     interrupted["exit_reason"] = to_string(ExitReason::interrupted);
@@ -357,9 +357,23 @@ bool RunOutput::leave_interrupted() {
     return true;
 }
 
+std::string RunOutput::word_of_another_process() const {
+    const auto file = implementation_->directory.word_of_a_process();
+    return std::filesystem::exists(file) ? read_file(file, largest_word) : "";
+}
+
+void RunOutput::leave_failed(const std::string& what_happened) {
+    const std::lock_guard<std::mutex> guard(implementation_->saving);
+    leave_last_word(what_happened.c_str());
+    std::error_code ignored;
+    std::filesystem::remove(implementation_->directory.word_of_a_process(), ignored);
+}
+
 void RunOutput::finish_with_error(const std::string& message) {
-    if (implementation_->role == OutputRole::observer) return;
-    implementation_->end("failed", message);
+    if (implementation_->role == OutputRole::observer)
+        leave_last_word(message.c_str());
+    else
+        implementation_->end("failed", message);
 }
 
 PhaseTimer::PhaseTimer(RunOutput& output, std::string phase)
