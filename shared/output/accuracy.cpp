@@ -35,7 +35,7 @@ std::string Alarm::describe() const {
 }
 
 AccuracyWatch::AccuracyWatch(const Parameters& parameters, const EngineIdentity& engine)
-    : columns_(engine.history_columns) {
+    : columns_(engine.history_columns), rest_(rest_level(parameters)) {
     for (const AccuracyBound& bound : accuracy_bounds())
         if (bound.engine == engine.name && has_column(bound.column, columns_) &&
             (!bound.applies || bound.applies(parameters))) {
@@ -54,7 +54,7 @@ double AccuracyWatch::measured(const AccuracyBound& bound, const HistoryRow& row
         case AccuracyMeasure::drift: {
             if (!memory.contains("first")) memory["first"] = value;
             const double first = memory["first"].get<double>();
-            return first == 0 ? 0 : std::abs(value / first - 1);
+            return std::abs(value - first) / rest_floor(std::abs(first), 0, rest_.area);
         }
         case AccuracyMeasure::accumulated: {
             const auto optional = [&](const char* column) {
@@ -63,11 +63,11 @@ double AccuracyWatch::measured(const AccuracyBound& bound, const HistoryRow& row
             const double line = optional("line_energy_pN_nm"), power = optional("load_power_pN_nm_per_us"),
                          energy = std::max(memory.value("energy_pN_nm", 0.0), row.membrane.bending_energy + line),
                          work = memory.value("work_pN_nm", 0.0) + std::abs(power) * row.step_us,
-                         sum = memory.value("sum", 0.0) + value * row.step_us, whole = std::max(energy, work);
+                         sum = memory.value("sum", 0.0) + value * row.step_us;
             memory["energy_pN_nm"] = energy;
             memory["work_pN_nm"] = work;
             memory["sum"] = sum;
-            return whole == 0 ? 0 : std::abs(sum / whole);
+            return std::abs(sum) / rest_floor(std::max(energy, work), 0, rest_.energy);
         }
     }
     throw std::logic_error("no such measure of accuracy");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "shared/model/rest.h"
 #include "shared/output/history_file.h"
 #include "shared/output/run_record.h"
 #include "shared/parameters/parameters.h"
@@ -16,9 +17,9 @@ namespace endoflow {
 enum class AccuracyMeasure {
     value,       ///< |column|
     rate,        ///< |column| too, but that of a settling row says nothing
-    drift,       ///< |column − its first value| / |its first value|
-    accumulated  ///< |∫ column dt| / the larger one of the membrane's largest energy, bending and edge, and the loads'
-                 ///< work ∫ |power| dt, both so far: a flat membrane that a force pulls has no energy yet
+    drift,       ///< |column − its first value| / the larger one of its first value and the area of rest_level()
+    accumulated  ///< |∫ column dt| / the largest one of the membrane's largest energy, bending and edge, the loads'
+                 ///< work ∫ |power| dt, both so far, and the energy of rest_level()
 };
 
 /// A quantity that is small in an accurate run, and how large it may get.
@@ -71,6 +72,7 @@ class AccuracyWatch {
 
     std::vector<AccuracyBound> bounds_;
     std::vector<ColumnText> columns_;
+    RestLevel rest_;
 };
 
 }  // namespace endoflow

@@ -347,11 +347,13 @@ std::vector<ParameterRow> time_rows() {
                             "relative accuracy of the time steps where they are error-controlled; 0 = a tenth of "
                             "boundary_integral.accuracy in that engine, 1e-4 in the other")),
         free_on_restart(row("time", "initial_step", &P::time, &S::initial_step, "µs", at_least(0, 1e3), "",
-                            "first time step; 0 = 1.0653e-6 (ν₁ + ν₂) R³/β, 1e-5 µs in the standard case")),
-        free_on_restart(row("time", "max_step", &P::time, &S::max_step, "µs", at_least(0, 1e6), "",
-                            "largest time step; 0 = 0.021307 (ν₁ + ν₂) R³/β, 0.2 µs in the standard case, or of the "
-                            "molecules' exchange "
-                            "time where that is longer; five times as long with phase_field.scheme = production")),
+                            "first time step; 0 = 1.9458e-4 (ν₁ + ν₂) L³/β, L being what forms, 2/C of a coat: 1e-5 µs "
+                            "in the standard case")),
+        free_on_restart(
+            row("time", "max_step", &P::time, &S::max_step, "µs", at_least(0, 1e6), "",
+                "largest time step; 0 = no bound in the sharp engine: its error decides. In the other 3.8916 "
+                "(ν₁ + ν₂) L³/β, 0.2 µs in the standard case, or 0.02 of the time of the molecules' "
+                "exchange where that is longer; five times as long with phase_field.scheme = production")),
     };
 }
 

@@ -146,12 +146,31 @@ TEST_CASE("the energy law of a flat membrane that a force begins to pull is seen
     CHECK(watch.look_at(row, record).empty());
     row.time_us = row.step_us = 1e-3;
     row.membrane.bending_energy = 0.01;
-    row.extra = {10, 7000};  // 0.01 pN nm is as much as the energy, and a 700th of the work
+    row.extra = {1e4, 7e6};  // 10 pN nm is a thousand times the energy, and a 700th of the work
     CHECK(watch.look_at(row, record).empty());
     CHECK(record["accuracy"]["energy-law"]["largest"].get<double>() == Approx(1.0 / 700));
-    row.extra = {200, -7000};  // the work of both signs: 14 pN nm
+    row.extra = {2e5, -7e6};  // the work of both signs: 14 000 pN nm
     CHECK(watch.look_at(row, record).size() == 1);
     CHECK(record["accuracy"]["energy-law"]["largest"].get<double>() == Approx(0.015));
+}
+
+TEST_CASE("what is lost of a membrane at rest is seen against the level of rest") {
+    Parameters bare;
+    bare.membrane.bending_stiffness = bare.membrane.bending_stiffness_coated = 100;  // β = 50 pN nm, as printed
+    const AccuracyWatch watch(bare, diffuse_engine("thickness_error_max"));
+    RunRecord record;
+    HistoryRow row = row_at(0, {0, 0});
+    row.membrane.bending_energy = 1e-13;
+    row.membrane.molecule_mass = 1e-12;
+    CHECK(watch.look_at(row, record).empty());
+    row.time_us = row.step_us = 1;
+    row.extra = {1e-12, 0};  // ten times the energy
+    row.membrane.molecule_mass = 2e-12;
+    CHECK(watch.look_at(row, record).empty());
+    CHECK(record["accuracy"]["energy-law"]["largest"].get<double>() == Approx(1e-12 / 50));
+    CHECK(record["accuracy"]["mass-drift"]["largest"].get<double>() < 1e-12);
+    row.extra = {1, 0};  // a fiftieth of β is a motion
+    CHECK(watch.look_at(row, record).size() == 1);
 }
 
 TEST_CASE("a membrane that may stretch raises no alarm of strain") {

@@ -1,0 +1,26 @@
+#include "shared/model/rest.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "shared/model/time_scale.h"
+
+namespace endoflow {
+
+namespace {
+
+constexpr double part_at_rest = 1e-7, part_of_largest = 1e-9;
+
+}  // namespace
+
+RestLevel rest_level(const Parameters& p) {
+    const double stiffness = largest_stiffness(p.membrane), rate = part_at_rest / structure_time(p);
+    return {stiffness, stiffness * rate, length_of_structure(p) * rate,
+            std::numbers::pi * p.molecules.interface_width * p.molecules.interface_width};
+}
+
+double rest_floor(double now, double largest_so_far, double level) {
+    return std::max({now, part_of_largest * largest_so_far, level});
+}
+
+}  // namespace endoflow
