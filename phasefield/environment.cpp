@@ -8,6 +8,7 @@
 #include <string>
 
 #include "phasefield/driver/history.h"
+#include "phasefield/last_word_of_mpi.h"
 #include "phasefield/simulation.h"
 #include "shared/support/fast_blas.h"
 
@@ -70,6 +71,7 @@ Environment::Environment(int& argc, char**& argv) {
     // not suffice. Shared file pointers, which that component is for, nobody uses here.
     setenv("OMPI_MCA_sharedfp", "^lockedfile", 0);
     implementation_ = std::make_unique<Implementation>(argc, argv);
+    let_mpi_leave_the_last_word();
     hold_blas_to_one_thread();
 }
 

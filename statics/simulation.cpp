@@ -38,7 +38,8 @@ std::vector<std::string> continuable(const Parameters& parameters) {
     return keys;
 }
 
-/// Along a branch in a load the membrane may become a tube of any length: it is followed to the top of the box.
+/// Along a branch in a load the membrane may become a tube of any length: it is followed to the top or bottom of the
+/// box.
 bool is_load(const std::string& key) {
     return key == "membrane.rim_tension" || key == "membrane.pole_force" || key == "fluid.pressure_difference";
 }
@@ -104,11 +105,18 @@ Json write_state(StateWriter& writer, const Parameters& named, const Parameters&
     return figures;
 }
 
+std::string side_reached(const Parameters& parameters, const PiecewiseSolution& solution) {
+    const bool upwards = solution.nodes(state::height, 0) > parameters.domain.membrane_height;
+    return std::string("the membrane reaches the ") + (upwards ? "top" : "bottom") + " of the box";
+}
+
 void warn_about_walls(const Parameters& parameters, double height, RunOutput& output) {
     const auto& domain = parameters.domain;
-    if (domain.membrane_height + height > domain.height - domain.wall_clearance)
+    const double apex = domain.membrane_height + height;
+    if (std::min(apex, domain.height - apex) < domain.wall_clearance)
         output.log_warning(
-            fmt::format("the stationary shape is {:.4g} nm high and does not fit into the domain", height));
+            fmt::format("the stationary shape reaches {:.4g} nm from the rim's plane and does not fit into the domain",
+                        std::abs(height)));
 }
 
 ExitReason write_branch(const Parameters& parameters, const Request& request, const StationaryState& state,
@@ -126,7 +134,7 @@ ExitReason write_branch(const Parameters& parameters, const Request& request, co
     const auto visit = [&](const BranchPoint& point) {
         const double value = point.solution.parameter;
         write_state(writer, named(value), solved(value).parameters, point);
-        left_the_box = is_load(key) && reaches_the_top(parameters, point.solution);
+        left_the_box = is_load(key) && reaches_top_or_bottom(parameters, point.solution);
         return interruption_signal() == 0 && !left_the_box;
     };
     const auto branch = continue_state(state, solved, number_of(parameters, key), end, visit, request.resolution);
@@ -136,7 +144,7 @@ ExitReason write_branch(const Parameters& parameters, const Request& request, co
     if (interruption_signal() != 0) return ExitReason::interrupted;
     const bool neck_closed = !left_the_box && neck_closes(*branch);
     describe_branch(writer, key, number_of(parameters, key), *branch,
-                    left_the_box  ? "the membrane reaches the top of the box"
+                    left_the_box  ? side_reached(parameters, branch->last.solution)
                     : neck_closed ? "the neck closes"
                                   : to_string(branch->end));
     return neck_closed ? ExitReason::neck_closed : ExitReason::done;

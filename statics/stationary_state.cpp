@@ -108,7 +108,7 @@ void add_load(Search& search, const Parameters& before, const Parameters& loaded
               const Resolution& resolution) {
     const double wanted = std::get<double>(find_parameter(key)->get(loaded));
     if (!search.state || wanted == 0) return;
-    const auto go_on = [&](const BranchPoint& point) { return !reaches_the_top(loaded, point.solution); };
+    const auto go_on = [&](const BranchPoint& point) { return !reaches_top_or_bottom(loaded, point.solution); };
     auto branch = continue_state(*search.state, path_in(before, key), 0, wanted, go_on, resolution);
     search.state.reset();
     search.key = key;
@@ -143,8 +143,10 @@ CasePath path_in(const Parameters& parameters, const std::string& key) {
     };
 }
 
-bool reaches_the_top(const Parameters& parameters, const PiecewiseSolution& solution) {
-    return solution.nodes(state::height, 0) > parameters.domain.height - parameters.domain.wall_clearance;
+bool reaches_top_or_bottom(const Parameters& parameters, const PiecewiseSolution& solution) {
+    const DomainParameters& domain = parameters.domain;
+    const double apex = solution.nodes(state::height, 0);
+    return std::min(apex, domain.height - apex) < domain.wall_clearance;
 }
 
 Search search_stationary_state(const Parameters& parameters, const Resolution& resolution) {

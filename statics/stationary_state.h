@@ -36,8 +36,8 @@ inline constexpr double closed_neck_radius = 1.0;
 /// The path of cases that differ in one number of the parameter table.
 [[nodiscard]] CasePath path_in(const Parameters& parameters, const std::string& key);
 
-/// Whether the membrane's apex is nearer to the top of the box than domain.wall_clearance.
-[[nodiscard]] bool reaches_the_top(const Parameters& parameters, const PiecewiseSolution& solution);
+/// Whether the membrane's apex is nearer to the top or bottom of the box than domain.wall_clearance.
+[[nodiscard]] bool reaches_top_or_bottom(const Parameters& parameters, const PiecewiseSolution& solution);
 
 /// Whether a branch ended because its neck closes.
 [[nodiscard]] bool neck_closes(const Branch& branch);

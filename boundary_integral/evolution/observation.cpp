@@ -38,13 +38,14 @@ const QuadratureRule& arc_length_rule() {
 
 double height(const MembraneSpace& space, const MembraneSamples& samples, const MembraneState& state,
               const DomainParameters& domain) {
-    double highest = space.axial().basis(0.0).evaluate(state.z);
-    double lowest = space.end() == CurveEnd::closed ? space.axial().basis(1.0).evaluate(state.z) : highest;
+    const bool closed = space.end() == CurveEnd::closed;
+    const double axis = space.axial().basis(0.0).evaluate(state.z), end = space.axial().basis(1.0).evaluate(state.z);
+    double highest = std::max(axis, end), lowest = std::min(axis, end);
     for (const CurvePoint& p : samples.curve) {
         highest = std::max(highest, p.z);
         lowest = std::min(lowest, p.z);
     }
-    return highest - (space.end() == CurveEnd::closed ? lowest : domain.membrane_height);
+    return bud_height_between(highest, lowest, domain.membrane_height, closed);
 }
 
 }  // namespace

@@ -84,4 +84,4 @@ def outcome_of(record, neck, height):
         return "bud"
     if neck is not None:
         return "neck"
-    return "dome" if (height or 0) > DOME_HEIGHT * record["parameters"]["molecules"]["patch_radius"] else "flat"
+    return "dome" if abs(height or 0) > DOME_HEIGHT * record["parameters"]["molecules"]["patch_radius"] else "flat"

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "phasefield/solver/mumps_ordering.h"
 #include "shared/support/error.h"
 
 namespace endoflow::phasefield {
@@ -68,7 +69,7 @@ void LinearSystem::renew_solver() {
     check(PCFactorSetUpMatSolverType(preconditioner), name_);
     Mat factors;
     check(PCFactorGetMatrix(preconditioner, &factors), name_);
-    check(MatMumpsSetIcntl(factors, 7, 5), name_);    // METIS ordering
+    check(MatMumpsSetIcntl(factors, 7, static_cast<int>(MumpsOrdering::minimum_degree_of_quasi_dense)), name_);
     check(MatMumpsSetIcntl(factors, 28, 1), name_);   // sequential analysis
     check(MatMumpsSetIcntl(factors, 14, 60), name_);  // 60 % more workspace than estimated
 }

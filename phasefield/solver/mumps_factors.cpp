@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "phasefield/solver/mumps_ordering.h"
+
 namespace endoflow::phasefield {
 
 namespace {
@@ -100,7 +102,7 @@ FactorsOf<Data>::FactorsOf(const dealii::SparsityPattern& pattern, unsigned int 
     id.a = values_.data();
     id.rhs = work_.data();
     handle_.control(6) = 0;  // no permutation of columns: pivoting finds what is not on the diagonal
-    handle_.control(7) = 2;  // approximate minimum fill: work as with nested dissection, less analysis
+    handle_.control(7) = static_cast<int>(MumpsOrdering::approximate_minimum_fill);
     handle_.control(8) = 0;  // scale() does it
     handle_.control(14) = spare_workspace;
     if (kept_ > 0) {

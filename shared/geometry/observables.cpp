@@ -72,6 +72,11 @@ double largest(const AxisymmetricSpline& f, const std::vector<double>& t, double
 
 }  // namespace
 
+double bud_height_between(double highest, double lowest, double rim, bool closed) {
+    if (closed) return highest - lowest;
+    return highest - rim >= rim - lowest ? highest - rim : lowest - rim;
+}
+
 Observables measure(const MembraneCurve& curve, const BendingModel& model) {
     require_valid(curve);
     const Shape shape(curve);
@@ -83,7 +88,8 @@ Observables measure(const MembraneCurve& curve, const BendingModel& model) {
     const BendingTerm bending{model};
     Observables result;
     result.neck = find_neck(shape);
-    result.bud_height = largest(shape.z, shape.t) + (curve.closed() ? largest(shape.z, shape.t, -1) : -z_rim);
+    result.bud_height =
+        bud_height_between(largest(shape.z, shape.t), -largest(shape.z, shape.t, -1), z_rim, curve.closed());
     result.membrane_area = shape.integrate(area_element);
     result.molecule_mass = shape.integrate([&](double t) { return c.value(t) * area_element(t); });
     result.bending_energy = shape.integrate([&](double t) {

@@ -16,8 +16,11 @@ const std::vector<HistoryColumn>& common_history_columns() {
          [](const R& r) { return r.membrane.neck ? Value(r.membrane.neck->radius) : Value(); }, of_shape},
         {"bud_diameter_nm", "lateral diameter of the bud above the neck; empty without a neck",
          [](const R& r) { return r.membrane.neck ? Value(r.membrane.neck->lateral_diameter) : Value(); }, of_shape},
-        {"bud_height_nm", "highest point above the rim", [](const R& r) -> Value { return r.membrane.bud_height; },
-         of_shape},
+        {"bud_height_nm",
+         "z of the point farthest from the rim's plane, less the rim's: > 0 for a bud into the cell, < 0 for one out "
+         "of it; "
+         "of a vesicle its extent in z",
+         [](const R& r) -> Value { return r.membrane.bud_height; }, of_shape},
         {"membrane_area_nm2", "area inside the domain; grows as membrane flows in",
          [](const R& r) -> Value { return r.membrane.membrane_area; }, of_shape},
         {"bending_energy_pN_nm", "(S), or (D) of the diffuse membrane",
@@ -26,7 +29,8 @@ const std::vector<HistoryColumn>& common_history_columns() {
          [](const R& r) -> Value { return r.membrane.molecule_mass; }},
         {"area_strain_max", "largest local change of area of the material",
          [](const R& r) -> Value { return r.area_strain_max; }},
-        {"volume_extracellular_nm3", "volume gained against the flat plane",
+        {"volume_extracellular_nm3",
+         "volume gained against the flat plane, < 0 under a bud out of the cell; of a vesicle what it encloses",
          [](const R& r) -> Value { return r.membrane.extracellular_volume; }, of_shape},
         {"wall_s", "wall time since the start", [](const R& r) -> Value { return r.wall_s; }},
     };

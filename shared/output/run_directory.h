@@ -23,6 +23,8 @@ struct RunDirectory {
     }
     [[nodiscard]] std::filesystem::path earlier() const { return root / "earlier"; }
     [[nodiscard]] std::filesystem::path lock() const { return root / "lock"; }
+    /// Why a process that is not the directory's owner ended; the owner reads and removes it.
+    [[nodiscard]] std::filesystem::path word_of_a_process() const { return root / "process-ended"; }
 
     /// Makes root if it is not there. Throws IoError when it cannot be written.
     void make_root() const;

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <mutex>
 
 #include "shared/output/atomic_file.h"
@@ -20,6 +19,7 @@
 #include "shared/output/restart_point.h"
 #include "shared/output/run_lock.h"
 #include "shared/output/shapes_file.h"
+#include "shared/output/sudden_end.h"
 #include "shared/support/console.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
@@ -28,16 +28,7 @@ namespace endoflow {
 
 namespace {
 
-/// For a disk that takes no new file: the state in a run.json that says "running" is replaced in its place.
-void overwrite_state(const std::filesystem::path& file, const std::string& state) {
-    const std::string running = "\"running\"", text = read_file(file, largest_record);
-    const auto place = text.find(running, text.find("\"state\""));
-    std::string word = "\"" + state + "\"";
-    if (place == std::string::npos || word.size() > running.size()) return;
-    word.resize(running.size(), ' ');
-    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
-    stream.seekp(static_cast<std::streamoff>(place));
-    stream << word << std::flush;
+constexpr std::uintmax_t largest_word = 10000;  // of another process, bytes
 }
 
 std::shared_ptr<spdlog::logger> open_log(const std::filesystem::path& file) {
@@ -79,6 +70,7 @@ struct RunFiles::Implementation {
     std::unique_ptr<ShapesFile> shapes;
     std::optional<FieldIndex> fields;
     std::unique_ptr<LiveLine> live_line;
+    std::unique_ptr<SuddenEnd> sudden_end;  // while the run has had no last word
 
     void start_fresh() {
         directory.make_root();
@@ -145,6 +137,10 @@ struct RunFiles::Implementation {
             warn(fmt::format("{}: is damaged; the shapes come from {}", directory.shapes_at_checkpoint().string(),
                              directory.shapes().string()));
         if (!lock->doubt().empty()) warn(lock->doubt());
+        std::filesystem::remove(directory.word_of_a_process());
+        sudden_end = std::make_unique<SuddenEnd>(directory, record);
+        sudden_end->reached(start, record["steps"]["accepted"].get<long>());
+        if (restart_point) sudden_end->checkpoint_written();
         save_record();
     }
 
@@ -179,6 +175,7 @@ struct RunFiles::Implementation {
     void save_record() {
         record["wall_s"] = wall();
         record["cpu_s"] = cpu_before + cpu_seconds();
+        if (sudden_end) sudden_end->renew(record);
         const std::lock_guard<std::mutex> guard(saving);
         write_file_atomically(directory.record(), record.dump(2) + "\n");
     }
@@ -200,6 +197,7 @@ struct RunFiles::Implementation {
     }
 
     void end(const std::string& state, const std::string& reason) {
+        sudden_end.reset();
         live_line->finish();
         record["state"] = state;
         record["exit_reason"] = reason;
@@ -208,7 +206,7 @@ struct RunFiles::Implementation {
         try {
             save_record();
         } catch (const IoError&) {
-            overwrite_state(directory.record(), state);
+            overwrite_state(directory, state);
             throw;
         }
     }
@@ -259,6 +257,7 @@ void RunFiles::record_step(HistoryRow row) {
     self.history->append(row);
     self.record["time_us"] = row.time_us;
     self.record["steps"]["accepted"] = self.record["steps"]["accepted"].get<long>() + 1;
+    self.sudden_end->reached(row.time_us, self.record["steps"]["accepted"].get<long>());
     if (self.engine.row_order == RowOrder::in_time) self.live_line->update(row);
     for (const Alarm& alarm : self.accuracy->look_at(row, self.record)) self.raise(alarm);
 }
@@ -321,6 +320,7 @@ void RunFiles::write_checkpoint(const Checkpoint& checkpoint) {
     write_checkpoint_file(self.directory.checkpoint(), complete);
     self.last_checkpoint = wall_seconds();
     ++self.checkpoints;
+    self.sudden_end->checkpoint_written();
     RunRecord interrupted = self.record;
     interrupted["state"] = "interrupted";
     interrupted["exit_reason"] = to_string(ExitReason::interrupted);
@@ -341,6 +341,18 @@ bool RunFiles::leave_interrupted() {
     if (self.words_if_interrupted.empty()) return false;
     write_file_atomically(self.directory.record(), self.words_if_interrupted);
     return true;
+}
+
+std::string RunFiles::word_of_another_process() const {
+    const auto file = implementation_->directory.word_of_a_process();
+    return std::filesystem::exists(file) ? read_file(file, largest_word) : "";
+}
+
+void RunFiles::leave_failed(const std::string& what_happened) {
+    const std::lock_guard<std::mutex> guard(implementation_->saving);
+    leave_last_word(what_happened.c_str());
+    std::error_code ignored;
+    std::filesystem::remove(implementation_->directory.word_of_a_process(), ignored);
 }
 
 void RunFiles::finish_with_error(const std::string& message) {

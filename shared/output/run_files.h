@@ -30,6 +30,11 @@ class RunFiles final : public RunOutput {
     /// For a run that may be killed before it reaches its next checkpoint: run.json as of the last one, with the state
     /// "interrupted"; false when there is none. Any thread may call it while another one computes.
     bool leave_interrupted();
+    /// What an observer that ended left; empty when none did.
+    [[nodiscard]] std::string word_of_another_process() const;
+    /// For a run that cannot go on because another process has ended: run.json, log.txt and stderr say so, at once. Any
+    /// thread of the owner may call it while another one computes; the process must end then.
+    void leave_failed(const std::string& what_happened);
 
     [[nodiscard]] const std::filesystem::path& directory() const override;
     [[nodiscard]] const std::optional<Checkpoint>& restart_point() const override;

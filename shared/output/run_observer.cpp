@@ -9,7 +9,7 @@ namespace endoflow {
 
 RunObserver::RunObserver(const Parameters& parameters, const EngineIdentity& engine, std::filesystem::path directory,
                          bool continues)
-    : directory_(std::move(directory)), accuracy_(parameters, engine) {
+    : directory_(std::move(directory)), accuracy_(parameters, engine), sudden_end_(RunDirectory{directory_}) {
     if (continues) {
         RestartPoint point = read_checkpoint({directory_});
         restart_point_ = std::move(point.checkpoint);
@@ -29,6 +29,10 @@ void RunObserver::record_step(HistoryRow row) {
 
 void RunObserver::watch(const AccuracyBound& bound, double time_us, double value) {
     (void)AccuracyWatch::look_at(bound, time_us, value, record_);
+}
+
+void RunObserver::finish_with_error(const std::string& message) {
+    leave_last_word(message.c_str());
 }
 
 }  // namespace endoflow

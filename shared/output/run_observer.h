@@ -1,6 +1,7 @@
 #pragma once
 
 #include "shared/output/run_output.h"
+#include "shared/output/sudden_end.h"
 #include "shared/parameters/parameters.h"
 
 namespace endoflow {
@@ -30,13 +31,15 @@ class RunObserver final : public RunOutput {
     [[nodiscard]] bool checkpoint_due() const override { return false; }
     void write_checkpoint(const Checkpoint&) override {}
     void finish(ExitReason) override {}
-    void finish_with_error(const std::string&) override {}
+    /// To the owner, which may not know of the failure.
+    void finish_with_error(const std::string& message) override;
 
   private:
     std::filesystem::path directory_;
     std::optional<Checkpoint> restart_point_;
     RunRecord record_;  // what the watch must remember
     AccuracyWatch accuracy_;
+    SuddenEnd sudden_end_;
 };
 
 }  // namespace endoflow

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "shared/output/atomic_file.h"
 #include "shared/parameters/parameter_rendering.h"
@@ -91,6 +92,18 @@ RunRecord parse_record(const std::string& text, const std::string& source) {
 
 RunRecord read_record(const RunDirectory& directory) {
     return parse_record(read_file(directory.record(), largest_record), directory.record().string());
+}
+
+void overwrite_state(const RunDirectory& directory, const std::string& state) {
+    const std::filesystem::path file = directory.record();
+    const std::string running = "\"running\"", text = read_file(file, largest_record);
+    const auto place = text.find(running, text.find("\"state\""));
+    std::string word = "\"" + state + "\"";
+    if (place == std::string::npos || word.size() > running.size()) return;
+    word.resize(running.size(), ' ');
+    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekp(static_cast<std::streamoff>(place));
+    stream << word << std::flush;
 }
 
 void require_continuable(const RunRecord& record, const Parameters& parameters, const EngineIdentity& engine,

@@ -45,6 +45,9 @@ inline constexpr std::uintmax_t largest_record = std::uintmax_t{1} << 26;
 /// run.json of a run. Throws IoError.
 [[nodiscard]] RunRecord read_record(const RunDirectory& directory);
 
+/// For a disk that takes no new file: the state in a run.json that says "running" is replaced in its place.
+void overwrite_state(const RunDirectory& directory, const std::string& state);
+
 /// Throws IoError when another engine wrote the record, InputError when the parameters state another problem than
 /// the record's: only those that the parameter table marks as free may differ.
 void require_continuable(const RunRecord& record, const Parameters& parameters, const EngineIdentity& engine,

@@ -21,7 +21,7 @@ class EngineFiles(unittest.TestCase):
             self.assertEqual(set(file["shapes/000000"]), set(FIELDS))
         run = endoflow.load(directory)
         self.assertEqual(list(run.history), list(run.columns))
-        self.assertEqual(run.columns["bud_height_nm"], "highest point above the rim")
+        self.assertTrue(run.columns["bud_height_nm"].startswith("z of the point farthest from the rim's plane"))
         self.assertNotIn("", run.columns.values())
         self.assertEqual(run.engine, name.split(",")[0])
         # An interval of 5e-5 µs is halved towards the start.

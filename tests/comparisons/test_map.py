@@ -58,6 +58,7 @@ class Tracing(unittest.TestCase):
             (finished, None, None, "flat"),
             (finished, None, 11.4, "flat"),  # 30 nm sin 22.5° = 11.48 nm
             (finished, None, 11.5, "dome"),
+            (finished, None, -11.5, "dome"),  # out of the cell
             (finished, 12.0, 40.0, "neck"),
             ({**finished, "events": {"budding": {}}}, 5.0, 40.0, "bud"),
             ({**finished, "events": {"budding": {}, "neck_closed": {}}}, 0.5, 40.0, "closed"),

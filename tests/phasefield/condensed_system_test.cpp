@@ -1,10 +1,14 @@
 // Eliminating the unknowns inside of the cells does not change the solution of a linear system.
 
+#include <dmumps_c.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numeric>
 
 #include "phasefield/fem/mesh.h"
 #include "phasefield/solver/condensed_system.h"
+#include "phasefield/solver/mumps_ordering.h"
 #include "shared/support/error.h"
 #include "small_case.h"
 
@@ -155,21 +159,23 @@ std::string failure(WholeAndCondensed& problem, double factor) {
     return "none";
 }
 
-/// The own part of the solution of a system between processes. Each has numbers rank … rank + 3 and a matrix of its
-/// own.
-dealii::Vector<double> shared_solution(InterfaceSystem& system) {
+/// The own part of the solution of a system between processes. Each has `count` numbers from its rank on and a matrix
+/// of its own.
+dealii::Vector<double> shared_solution(InterfaceSystem& system, unsigned int count) {
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD),
                        processes = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    const std::vector<InterfaceSystem::Index> numbers{rank, rank + 1, rank + 2, rank + 3};
-    dealii::IndexSet owned(processes + 3);
+    std::vector<InterfaceSystem::Index> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), rank);
+    dealii::IndexSet owned(processes + count - 1);
     owned.add_range(rank, rank + 1);
-    if (rank + 1 == processes) owned.add_range(rank + 1, rank + 4);
+    if (rank + 1 == processes) owned.add_range(rank + 1, rank + count);
     system.reinit(owned, numbers);
-    dealii::FullMatrix<double> matrix(4, 4);
-    dealii::Vector<double> values(4);
-    for (unsigned int i = 0; i < 4; ++i) {
+    dealii::FullMatrix<double> matrix(count, count);
+    dealii::Vector<double> values(count);
+    for (unsigned int i = 0; i < count; ++i) {
         values(i) = 1 + rank + 0.5 * i;
-        for (unsigned int k = 0; k < 4; ++k) matrix(i, k) = std::cos(1.3 * i - 0.7 * k + rank) + (i == k ? 5 : 0);
+        for (unsigned int k = 0; k < count; ++k)
+            matrix(i, k) = std::cos(1.3 * i - 0.7 * k + rank) + (i == k ? 5.0 + count : 0);
     }
     REQUIRE(system.factorise(matrix));
     system.solve(values);  // with new factors, then with old ones
@@ -177,11 +183,47 @@ dealii::Vector<double> shared_solution(InterfaceSystem& system) {
     return values;
 }
 
+/// INFOG(7): the ordering that MUMPS takes for a complete graph when it is asked for this one.
+int ordering_taken(MumpsOrdering wanted) {
+    constexpr int size = 50;
+    std::vector<int> rows, columns;
+    for (int i = 1; i <= size; ++i)
+        for (int k = 1; k <= size; ++k) {
+            rows.push_back(i);
+            columns.push_back(k);
+        }
+    DMUMPS_STRUC_C data{};
+    const auto run = [&](int job) {
+        data.job = job;
+        dmumps_c(&data);
+        REQUIRE(data.infog[0] == 0);
+    };
+    data.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(MPI_COMM_SELF));
+    data.par = 1;
+    run(-1);
+    for (int stream = 0; stream < 4; ++stream) data.icntl[stream] = stream < 3 ? -1 : 0;  // no output
+    data.icntl[5] = 0;
+    data.icntl[6] = static_cast<int>(wanted);
+    data.n = size;
+    data.nnz = size * size;
+    data.irn = rows.data();
+    data.jcn = columns.data();
+    run(1);
+    const int taken = data.infog[6];
+    run(-2);
+    return taken;
+}
+
 // Both are direct solvers, so that they differ by round-off times the condition number, up to some 1e4: that of single
 // precision in the condensed system's factors, that of double precision after refinement.
 constexpr double single_round_off = 1e-6, round_off = 1e-11;
 
 }  // namespace
+
+TEST_CASE("MUMPS has the orderings that it is asked for", "[condensation]") {
+    for (const auto wanted : {MumpsOrdering::approximate_minimum_fill, MumpsOrdering::minimum_degree_of_quasi_dense})
+        CHECK(ordering_taken(wanted) == static_cast<int>(wanted));
+}
 
 TEST_CASE("a condensed system has the same solution", "[condensation]") {
     for (const bool second_component : {true, false}) {
@@ -248,9 +290,12 @@ TEST_CASE("a condensed system survives singular and not finite matrices", "[cond
 }
 
 TEST_CASE("few and many unknowns between processes have the same solution", "[condensation][mpi]") {
-    InterfaceSystem few(MPI_COMM_WORLD, "few"), many(MPI_COMM_WORLD, "many", 0);
-    const auto expected = shared_solution(few);
-    auto found = shared_solution(many);
-    found -= expected;
-    CHECK(found.linfty_norm() < 1e-13 * expected.linfty_norm());
+    for (const unsigned int count : {4U, 400U}) {
+        CAPTURE(count);
+        InterfaceSystem few(MPI_COMM_WORLD, "few"), many(MPI_COMM_WORLD, "many", 0);
+        const auto expected = shared_solution(few, count);
+        auto found = shared_solution(many, count);
+        found -= expected;
+        CHECK(found.linfty_norm() < 1e-13 * expected.linfty_norm());
+    }
 }

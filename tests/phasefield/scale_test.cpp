@@ -89,6 +89,20 @@ TEST_CASE("lengths ten times as large with equal energies change nothing", "[sca
     check_equal(after_steps(p, steps), after_steps(scaled(p, 10, 1000), steps), 1000, 10);
 }
 
+TEST_CASE("a problem mirrored in the rim's plane has the opposite height and volume", "[scale]") {
+    Parameters p = small_case();
+    p.time.tolerance = tolerance;
+    Parameters mirrored = p;
+    mirrored.membrane.spontaneous_curvature *= -1;
+    std::swap(mirrored.fluid.viscosity_extracellular, mirrored.fluid.viscosity_intracellular);
+    const int steps = 8;
+    Reached a = after_steps(p, steps);
+    CHECK(a.seen.bud_height > 0);
+    a.seen.bud_height *= -1;
+    a.seen.extracellular_volume *= -1;
+    check_equal(a, after_steps(mirrored, steps), 1, 1);
+}
+
 TEST_CASE("a membrane at rest has the same points in other units, and so the same mesh", "[scale]") {
     // 80 nm are 200 quarters of a cell of 4/3 ε; in doubles 200.00000000000003 of them, ten times as large 200.
     const auto points = [](const Parameters& p) {

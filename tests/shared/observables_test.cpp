@@ -63,6 +63,26 @@ TEST_CASE("the height of a bud with a dimple on the axis does not depend on roun
     }
 }
 
+TEST_CASE("a mirrored membrane has the opposite height and volume and is the same otherwise") {
+    const auto curve = curve_of(201, 1.0, bud_r, bud_z, [](double) { return 0.3; });
+    MembraneCurve mirrored = curve;
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+        mirrored.z[i] = -curve.z[i];
+        mirrored.kappa[i] = -curve.kappa[i];
+    }
+    MembraneParameters membrane, mirrored_membrane;
+    mirrored_membrane.spontaneous_curvature = -membrane.spontaneous_curvature;
+    const auto bud = measure(curve, BendingModel(membrane)), other = measure(mirrored, BendingModel(mirrored_membrane));
+    CHECK(bud.bud_height > 30);
+    CHECK(other.bud_height == -bud.bud_height);
+    CHECK(other.extracellular_volume == -bud.extracellular_volume);
+    CHECK(other.neck.value().radius == bud.neck.value().radius);
+    CHECK(other.neck.value().lateral_diameter == bud.neck.value().lateral_diameter);
+    CHECK(other.membrane_area == bud.membrane_area);
+    CHECK(other.molecule_mass == bud.molecule_mass);
+    CHECK(other.bending_energy == Approx(bud.bending_energy).epsilon(1e-14));
+}
+
 TEST_CASE("area, energy and volume of a spherical cap converge with order 4") {
     const double radius = 20, angle = 0.75 * pi, height = radius * (1 - std::cos(angle));
     const double area = 2 * pi * radius * height;

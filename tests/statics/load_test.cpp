@@ -187,7 +187,7 @@ TEST_CASE("A tube is pulled at F = 2π √(2βσ), after an overshoot that is la
             largest = std::max(largest, last);
             if (point.solution.nodes(state::height, 0) - parameters.domain.membrane_height > 300)
                 deviation = std::max(deviation, std::abs(last / plateau - 1));
-            return !reaches_the_top(parameters, point.solution);
+            return !reaches_top_or_bottom(parameters, point.solution);
         };
         const auto branch = continue_state(find_stationary_state(parameters),
                                            path_in(parameters, "membrane.pole_force"), 0, 100, visit);

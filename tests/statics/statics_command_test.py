@@ -89,6 +89,31 @@ class Statics(CommandLineTest):
         self.assertGreater(max(float(row["pole_force_pN"]) for row in rows), 33)
         self.assertGreater(float(rows[-1]["pole_extension_nm"]), 200)
 
+    def test_a_mirrored_state(self):
+        """Out of the cell: the opposite height, all else the same, to the last digits that are written."""
+        rows = []
+        for curvature in (0.0709219858, -0.0709219858):
+            result = endoflow("statics", self.case, "-o", self.output, "--set", f"membrane.spontaneous_curvature={curvature}")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            rows.append({key: float(value) for key, value in self.rows()[0].items() if value})
+        into, out_of = rows
+        self.assertGreater(into["bud_height_nm"], 10)
+        for key in ("bud_height_nm", "apex_height_nm", "volume_extracellular_nm3"):
+            self.assertAlmostEqual(out_of[key] / into[key], -1, delta=1e-8)
+        for key in ("neck_radius_nm", "bud_diameter_nm", "membrane_area_nm2", "bending_energy_pN_nm", "molecule_mass_nm2"):
+            self.assertAlmostEqual(out_of[key] / into[key], 1, delta=1e-8)
+
+    def test_a_tube_out_of_the_cell(self):
+        self.case.write_text(
+            "[domain]\nheight = 160\nmembrane_height = 120\n"
+            "[membrane]\nbending_stiffness = 200\nbending_stiffness_coated = 200\nspontaneous_curvature = 0\n"
+            'rim_tension = 0.1\n[molecules]\ntransport = "advection"\n'
+        )
+        result = endoflow("statics", self.case, "-o", self.output, "--continue-in", "membrane.pole_force=-100")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("the membrane reaches the bottom of the box", result.stdout)
+        self.assertLess(float(self.rows()[-1]["bud_height_nm"]), -100)
+
     def test_elements(self):
         """A state's relative_error is what twice the elements change."""
         errors = {}

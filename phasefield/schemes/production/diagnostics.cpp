@@ -30,7 +30,7 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
     ComponentField old_distance(space, distance, quadrature), predicted_distance(space, distance, quadrature);
     dealii::Vector<double> values(space.element.n_dofs_per_cell());
     SolutionMeasures out{};
-    auto& [integrals, diagnostics, difference, layer_motion] = out;
+    auto& [integrals, diagnostics, difference, layer_motion, molecules_rate] = out;
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         const CellBox box = cell_box(cell);
@@ -101,6 +101,7 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
             diagnostics.profile_error_max = std::max(diagnostics.profile_error_max, thickness_error);
             const double motion = std::abs(psi.value[q] - old_psi.value[q]);
             diagnostics.motion_max = std::max(diagnostics.motion_max, motion);
+            molecules_rate = std::max(molecules_rate, std::abs(c_rate.value[q]));
             layer_motion = std::max(layer_motion, motion * numerics.epsilon / epsilon);
             if (std::abs(layer.phi) < layer_middle)
                 difference = std::max(difference, std::abs(psi.value[q] - guess.value[q]));
@@ -112,9 +113,10 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
                         &diagnostics.transport_power, &diagnostics.line_energy, &diagnostics.molecule_dissipation,
                         &diagnostics.exchange_rate, &diagnostics.exchange_power},
                        communicator);
-    largest_of_processes({&diagnostics.area_strain_max, &diagnostics.thickness_error_max,
-                          &diagnostics.profile_error_max, &diagnostics.motion_max, &difference, &layer_motion},
-                         communicator);
+    largest_of_processes(
+        {&diagnostics.area_strain_max, &diagnostics.thickness_error_max, &diagnostics.profile_error_max,
+         &diagnostics.motion_max, &difference, &layer_motion, &molecules_rate},
+        communicator);
     return out;
 }
 

@@ -11,6 +11,7 @@ struct SolutionMeasures {
     StepDiagnostics diagnostics;
     double step_difference;  // max |ψ − ψ_predicted| on |φ| < 0.5 [nm]: further out layers may meet
     double layer_motion;  // the same of ψ − ψ_before where ε is largest; elsewhere as much larger as ε is smaller
+    double molecules_rate;  // max |∂c/∂t| on |φ| < 0.9 [1/µs]
 };
 
 /// `before` and `predicted` give the motion and the difference to the predictor, `rate` is ∂/∂t of the fields [1/µs].

@@ -43,9 +43,10 @@ double position_tolerance(const Parameters& p) {
     return step_tolerance(p) * size_of_membrane(p.domain);
 }
 
-/// Longest step [µs]: at rest only the error limits it.
-double longest(const Parameters& p) {
-    return p.time.max_step > 0 ? p.time.max_step : longer_steps * longest_step(p);
+/// Longest step [µs] after one of `tau` in which membrane and molecules changed by so many of the errors that a step
+/// may have: at rest, where they change by less, only the error limits it.
+double longest(const Parameters& p, double tau, double change) {
+    return p.time.max_step > 0 ? p.time.max_step : std::max(longer_steps * longest_step(p), tau / change);
 }
 
 }  // namespace
@@ -227,6 +228,8 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
         measures.diagnostics.bulk =
             bulk_->take({space_, energy_, numbers_, bdf, trial_}, masses_, trial_integrals_.molecules, tau);
     trial_motion_ = measures.layer_motion;
+    trial_change_ = std::max(trial_motion_ / position_tolerance(parameters_),
+                             tau * measures.molecules_rate / step_tolerance(parameters_));
     const double farthest = largest_motion * parameters_.phase_field.epsilon;
     trial_factor_ = since_start_ < first_steps ? 1 : largest_growth;
     double wrong_position = 0, wrong_molecules = 0;  // errors of the step over those allowed
@@ -273,7 +276,7 @@ void ProductionScheme::keep(double time, double tau, const StepOutcome& outcome)
     // A step that was cut short by a deadline does not shorten the next one.
     const double next = trial_factor_ * tau;
     nominal_ = tau < nominal_ && trial_factor_ >= 1 ? std::max(nominal_, next) : next;
-    nominal_ = std::min(nominal_, longest(parameters_));
+    nominal_ = std::min(nominal_, longest(parameters_, tau, trial_change_));
     speed_ = outcome.diagnostics.motion_max / tau;
     moved_ += trial_motion_;
     since_start_ += 1;

@@ -70,6 +70,7 @@ class ProductionScheme : public Scheme {
     LayerIntegrals trial_integrals_{};
     double trial_factor_ = 1;  // by which the step may grow
     double trial_motion_ = 0;  // of the layer
+    double trial_change_ = 0;  // of membrane and molecules in the step, over the errors that it may have
 
     double nominal_;          // the next step [µs]
     double speed_ = 0;        // of the membrane in the last step [nm/µs]
