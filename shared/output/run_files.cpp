@@ -29,7 +29,6 @@ namespace endoflow {
 namespace {
 
 constexpr std::uintmax_t largest_word = 10000;  // of another process, bytes
-}
 
 std::shared_ptr<spdlog::logger> open_log(const std::filesystem::path& file) {
     try {
