@@ -14,6 +14,9 @@ MOMENTS = (0.02, 0.15, 0.5, 1.0)
 #: Most of half the width (nm) that is shown: of a wide flat membrane the part further out is left away.
 HALF_WIDTH = 56.0
 
+#: Letters of a label that fit into half a picture at the full size.
+LETTERS = 18
+
 #: Colour of what is neither membrane nor run.
 INK = "#333333"
 
@@ -58,7 +61,7 @@ class Frame:
     def title(self, figure, x, y):
         """Which half is which run's, around a point (fractions of the figure's width and height)."""
         left, right = self.labels
-        how = {"va": "center", "size": 15, "weight": "bold"}
+        how = {"va": "center", "size": 15 * min(1, LETTERS / max(map(len, self.labels))), "weight": "bold"}
         figure.text(x - 0.01, y, f"{left} ◀", ha="right", color=self.colours[0], **how)
         figure.text(x + 0.01, y, f"▶ {right}", ha="left", color=self.colours[1], **how)
 

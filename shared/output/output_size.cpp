@@ -20,7 +20,7 @@ constexpr double bytes_per_point = 64, bytes_of_names = 21e3;
 constexpr double points_per_element = 8, spacing_in_layers = 0.33;
 
 /// Bytes of a file of fields: for each quadrilateral of the sharp engine's grid, and for a piece of the diffuse layer ε
-/// long with its part of the mesh around.
+/// long with its part of the mesh around, 15 cells of cubic elements (16 points, 17 numbers of 4 bytes each).
 constexpr double bytes_per_quadrilateral = 78, bytes_per_layer = 2e4;
 
 double layers(const Parameters& p) {
