@@ -190,4 +190,4 @@ def _toml(value):
 
 def _cell(text):
     """Words as a cell of a table: what is in quotes or brackets as code."""
-    return re.sub(r'(\{.*\}|\[[^\]]*\]|"[^"]*")', r"`\1`", text)
+    return re.sub(r'(\{.*\}|\[[^\]]*\]|"[^"]*")', r"`\1`", text).replace("|", r"\|")
