@@ -15,6 +15,9 @@ from comparisons.studies.study import lock, program
 
 from .options import positive_integer, runs_parser
 
+#: A fraction of a prior that gives no whole number: a parameter that must be one is no unknown.
+WITHIN = 0.381966
+
 #: Samples in posterior.csv.
 WRITTEN_SAMPLES = 4000
 
@@ -150,20 +153,21 @@ def resolved(study, settings=()):
 
 
 def check_limits(problem):
-    """Raises StudyError where a run at a limit of an unknown's prior, the others in their middle, is refused."""
+    """Raises StudyError where a run at a limit of an unknown's prior or within it, the others in their middle, is refused."""
     import numpy as np
 
-    middle = np.array([prior.from_fraction(0.5) for prior in problem.priors[: problem.engine_count]])
-    for number, limits in enumerate(problem.limits[: problem.engine_count]):
-        for limit in limits:
+    priors = problem.priors[: problem.engine_count]
+    middle = np.array([prior.from_fraction(0.5) for prior in priors])
+    for number, prior in enumerate(priors):
+        for tried in (prior.lowest, prior.highest, prior.from_fraction(WITHIN)):
             point = middle.copy()
-            point[number] = limit
+            point[number] = tried
             own = problem.settings(point)
             try:
                 resolved(problem.study, [f"{key}={text}" for key, text in own.items()])
             except StudyError as error:
-                value = float(problem.priors[number].value(limit))
-                what = f"its prior allows {value:.6g}: {str(error).removeprefix(f'{problem.study.path}: ')}"
+                said = str(error).removeprefix(f"{problem.study.path}: ")
+                what = f"its prior allows {float(prior.value(tried)):.6g}, but {said}"
                 raise StudyError(f"{problem.study.path}: unknown {problem.names[number]}: {what}", error.exit_code) from None
 
 

@@ -24,7 +24,7 @@ NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNOREC
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 
 #: A line that is no row: a comment, but not a spreadsheet's word for a number that it could not compute.
-COMMENT = re.compile(r"#(?!(DIV/0!|N/A|NAME\?|NULL!|NUM!|REF!|VALUE!))")
+COMMENT = re.compile(r"\s*#(?!(DIV/0!|N/A|NAME\?|NULL!|NUM!|REF!|VALUE!))")
 
 #: What programs write where there is no number, in small letters.
 NO_NUMBER = ("", "nan", "na", "n/a")

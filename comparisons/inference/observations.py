@@ -192,5 +192,5 @@ def contour(folder, keys, where, number):
         what = f"r_nm = {r[negative[0]]:g} is left of the axis"
         raise ValueError(f'{table.place(negative[0])}: {what}; say half_planes = "both", which mirrors such points, in {where}')
     places = tuple(table.place(row) for row in used)
-    limits = keys["low_us"], keys["high_us"] or 0.0
+    limits = keys["low_us"], 0.0 if keys["high_us"] is None else keys["high_us"]
     return Contour(number, r[used], z[used], keys["z_from"] == "floor", keys["error_nm"], time, *limits, places)

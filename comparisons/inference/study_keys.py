@@ -122,8 +122,8 @@ TABLES = {
         Key("contour", FILE, "a CSV of an outline's points", needed=True),
         Key("error_nm", POSITIVE, "nm: of each point", needed=True),
         Key("time_us", Number(), "µs: when it was taken, where that is known"),
-        Key("low_us", Number(least=0), "µs: earliest time where it is unknown", 0.0),
-        Key("high_us", POSITIVE, "µs: latest time where it is unknown"),
+        Key("low_us", Number(), "µs: earliest time where it is unknown", 0.0),
+        Key("high_us", Number(), "µs: latest time where it is unknown"),
         Key("every", Whole(1, 10**6), "n: of the points only every n-th one counts", 1),
         Key("half_planes", choice("right", "both"), "both: points with r < 0 are mirrored to the right", "right"),
         Key("z_from", choice("rim", "floor"), "where z is 0: at the level of the rim or on the floor of the box", "rim"),
@@ -190,4 +190,4 @@ def _toml(value):
 
 def _cell(text):
     """Words as a cell of a table: what is in quotes or brackets as code."""
-    return re.sub(r'(\{.*\}|\[[^\]]*\]|"[^"]*")', r"`\1`", text)
+    return re.sub(r'(\{.*\}|\[[^\]]*\]|"[^"]*")', r"`\1`", text).replace("|", r"\|")

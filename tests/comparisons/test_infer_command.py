@@ -45,7 +45,7 @@ class Refused(StudyTest):
             (UNKNOWN + '[[data]]\nrun = "nowhere"\nerror = 1\n', "no such directory"),
             (UNKNOWN + EVENT + "[set]\nmolecules.patch_radius = 3\n", "the keys in quotes"),
             (UNKNOWN + EVENT + "[", "study.toml: Invalid initial character"),
-            (WIDE + EVENT, "study.toml: unknown molecules.patch_radius: its prior allows 2000: molecules.patch_radius: must be at most"),
+            (WIDE + EVENT, "study.toml: unknown molecules.patch_radius: its prior allows 2000, but molecules.patch_radius: must be at most"),
             (UNKNOWN + EVENT + '[set]\n"molecules.patch_radius" = 2000\n', "study.toml: molecules.patch_radius: must be at most 1000"),
         ):
             with self.subTest(message):

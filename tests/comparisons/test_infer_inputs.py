@@ -91,6 +91,23 @@ class Refused(Inputs):
         self.assert_refused(["lists in lists"], BAD_INPUT, lambda: self.problem("x = " + 5000 * "["))
 
 
+class Studies(Inputs):
+    def test_written_by_any_editor(self):
+        """Byte-order marks and line ends change nothing."""
+        text = f'{HEAD}seed = 7\n# {"µ"}\n{UNKNOWN}{DATA}'
+        path = self.scratch / "study.toml"
+        for content in (
+            text.encode(),
+            text.encode("utf-8-sig"),
+            text.encode("utf-16"),
+            text.replace("\n", "\r\n").encode(),
+            text.replace("\n", "\r").encode(),
+        ):
+            path.write_bytes(content)
+            study = read_study(path)
+            self.assertEqual((study.seed, study.horizon, len(study.unknowns), len(study.data)), (7, 0.1, 1, 1))
+
+
 class Tables(Inputs):
     """One outline and one history, written as many programs write them, give the numbers of the plain file."""
 
@@ -122,7 +139,7 @@ class Tables(Inputs):
             ("no end of the last line", plain.rstrip("\n"), ""),
             ("empty rows", plain.replace("\n", "\n\n,,\n  \n"), ""),
             ("empty cells behind", plain.replace("\n", ",,\n"), ""),
-            ("comments", "# a, \"b\n" + plain.replace("\n", "\n# c\n", 2), ""),
+            ("comments", "# a, \"b\n  # c\n" + plain.replace("\n", "\n# c\n", 2), ""),
             ("cells in quotes", self.text(cell=lambda value: f'"{value}"'), ""),
             ("blanks around cells", self.text(cell=lambda value: f"  {value} "), ""),
             ("exponents", self.text(cell=lambda value: f"{value:+.5E}"), ""),
