@@ -71,6 +71,7 @@ struct RunOutput::Implementation {
     double wall_before = 0;  // s, of the parts of this run before a restart
     double cpu_before = 0;
     double last_checkpoint = wall_seconds();
+    double last_checkpoint_us = 0;
     int checkpoints = 0;
     std::mutex saving;                 // of run.json
     std::string words_if_interrupted;  // run.json as of the last checkpoint
@@ -126,6 +127,7 @@ struct RunOutput::Implementation {
         } catch (const RunRecord::exception& failure) {
             throw incomplete_record(directory, failure);
         }
+        forget_events_after(record, restart_point->time_us);
         history = std::make_unique<HistoryFile>(directory.history(), engine.history_columns, std::move(kept_history));
         record["steps"]["accepted"] = history->rows();
         if (kept_shapes != directory.shapes()) copy_file_atomically(kept_shapes, directory.shapes());
@@ -189,12 +191,12 @@ struct RunOutput::Implementation {
     }
 
     /// How far the run got and where its results are; `how` begins the line.
-    void tell(const std::string& how) const {
+    void tell(const std::string& how, ExitReason reason) const {
         const std::string when = engine.row_order == RowOrder::in_time
                                      ? fmt::format(" at t = {:.6g} µs", record["time_us"].get<double>())
                                      : "";
         say(stdout, fmt::format("{}{}; results in {}{}\n", how, when, one_line(directory.root.string()),
-                                engine.row_order == RowOrder::in_time ? "; continue with --restart" : ""));
+                                way_on(reason, engine, parameters, last_checkpoint_us)));
     }
 
     void end(const std::string& state, const std::string& reason) {
@@ -331,6 +333,7 @@ void RunOutput::write_checkpoint(const Checkpoint& checkpoint) {
     complete.texts[checkpoint_entry::record] = self.record.dump();
     write_checkpoint_file(self.directory.checkpoint(), complete);
     self.last_checkpoint = wall_seconds();
+    self.last_checkpoint_us = checkpoint.time_us;
     ++self.checkpoints;
     RunRecord interrupted = self.record;
     interrupted["state"] = "interrupted";
@@ -345,7 +348,8 @@ void RunOutput::finish(ExitReason reason) {
     implementation_->end(interrupted ? "interrupted" : "finished", to_string(reason));
     implementation_->tell(interrupted                  ? "interrupted, checkpoint written,"
                           : reason == ExitReason::done ? "finished"
-                                                       : "ended: " + to_string(reason) + ",");
+                                                       : "ended: " + to_string(reason) + ",",
+                          reason);
 }
 
 bool RunOutput::leave_interrupted() {
