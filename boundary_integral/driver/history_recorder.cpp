@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 #include <utility>
 
@@ -18,16 +19,16 @@ namespace {
 /// Relative error of neck radius and budding time over time.tolerance: measured, 0.4 to 2.
 constexpr double error_of_steps = 2.0;
 
-/// Part of natural_time in which what is left of an interpolation to other elements has relaxed. Measured: the energy's
-/// balance, off by up to 0.7 of a small power, is what it was before after a thousandth.
-constexpr double settling_part = 2e-3;
+/// Part of structure_time in which what is left of an interpolation to other elements has relaxed. Measured: the
+/// energy's balance, off by up to 0.7 of a small power, is what it was before after a fifth.
+constexpr double settling_part = 0.37;
 
 /// All zero without a fluid.
-FlowBalances balances(const MembraneDynamics& dynamics, const Evaluation& e) {
+FlowBalances balances(const MembraneDynamics& dynamics, const Evaluation& e, const RestLevel& rest) {
     if (e.flow.force.size() == 0) return {};
     if (const BoxFlow* box = dynamics.box())
-        return flow_balances(dynamics.space(), *box, *e.operators, e.samples, e.flow);
-    return flow_balances(dynamics.space(), *e.operators, e.samples, e.flow);
+        return flow_balances(dynamics.space(), *box, *e.operators, e.samples, e.flow, rest);
+    return flow_balances(dynamics.space(), *e.operators, e.samples, e.flow, rest);
 }
 
 /// Jump of c's fifth derivative from which on c overshoots by tenths. Below it, it does by the hundredths of a resolved
@@ -66,8 +67,8 @@ const std::vector<OwnColumn<StepBalances>>& own_history_columns() {
          [](const B& b) { return b.energy.energy_rate; }},
         {"energy_balance_relative",
          "|dE/dt + ∫ f·u − diffusion| / ∫ f·u, with all that changes c in the material, and with the two powers below "
-         "added to ∫ f·u",
-         [](const B& b) { return b.energy.residual(); }},
+         "added to ∫ f·u; at rest over the level of rest",
+         [](const B& b) { return b.energy.residual(b.power_floor); }},
         {"force_balance_relative", "forces of membrane and pin band against the tractions on the walls",
          [](const B& b) { return b.flow.force; }},
         {"net_flux_relative", "volume flux out of each phase", [](const B& b) { return b.flow.net_flux; }},
@@ -95,7 +96,11 @@ const std::vector<OwnColumn<StepBalances>>& own_history_columns() {
 }
 
 HistoryRecorder::HistoryRecorder(const Parameters& parameters, const MembraneDynamics& dynamics, RunOutput& output)
-    : parameters_(parameters), dynamics_(dynamics), output_(output), strain_(dynamics.space()) {}
+    : parameters_(parameters),
+      dynamics_(dynamics),
+      output_(output),
+      rest_(rest_level(parameters)),
+      strain_(dynamics.space()) {}
 
 void HistoryRecorder::start(const Evaluation& evaluation) {
     strain_rates_ = strain_.rates(evaluation);
@@ -103,7 +108,7 @@ void HistoryRecorder::start(const Evaluation& evaluation) {
 }
 
 void HistoryRecorder::settle(double since) {
-    settled_from_ = since + settling_part * natural_time(parameters_);
+    settled_from_ = since + settling_part * structure_time(parameters_);
 }
 
 void HistoryRecorder::record(double time, const Evaluation& evaluation, const StiffIntegrator& integrator) {
@@ -129,11 +134,15 @@ void HistoryRecorder::record(double time, const Evaluation& evaluation, const St
     strain_rates_ = std::move(strain_rates);
     row.area_strain_max = strain_.largest();
     molecules_.advance(last_row_, time, [&](double t) { return dynamics_.exchanged_per_time(integrator.state_at(t)); });
+    const EnergyBalance energy = energy_balance(dynamics_, evaluation);
+    largest_power_ = std::max(largest_power_, energy.moduli());
+    const double power_floor = rest_floor(0.0, largest_power_, rest_.power);
+    energy_balance_ = row.settling ? 0.0 : energy.residual(power_floor);
     row.extra =
         own_values(own_history_columns(),
-                   {energy_balance(dynamics_, evaluation), balances(dynamics_, evaluation), evaluation.flow.inflow,
+                   {energy, power_floor, balances(dynamics_, evaluation, rest_), evaluation.flow.inflow,
                     walls ? walls->smallest() : 0.0, integrator.last_order(), line_energy, molecules_.exchanged(),
-                    molecules_.residual(row.membrane.molecule_mass), resolution_error(evaluation.state)});
+                    molecules_.residual(row.membrane.molecule_mass, rest_.area), resolution_error(evaluation.state)});
     output_.record_step(row);
     last_row_ = time;
 }
@@ -144,6 +153,7 @@ double HistoryRecorder::resolution_error(const MembraneState& state) const {
 
 void HistoryRecorder::save(Checkpoint& checkpoint) const {
     checkpoint.scalars["last_row"] = last_row_;
+    checkpoint.scalars["largest_power"] = largest_power_;
     checkpoint.scalars["first_molecule_mass"] = molecules_.first_mass();
     checkpoint.scalars["molecules_exchanged"] = molecules_.exchanged();
     checkpoint.arrays["marker_xi"] = strain_.markers().xi;
@@ -154,6 +164,7 @@ void HistoryRecorder::save(Checkpoint& checkpoint) const {
 
 void HistoryRecorder::restore(const Checkpoint& checkpoint) {
     last_row_ = checkpoint.scalar("last_row");
+    largest_power_ = checkpoint.scalar("largest_power");
     molecules_ = {checkpoint.scalar("first_molecule_mass"), checkpoint.scalar("molecules_exchanged")};
     strain_.restore({checkpoint.array("marker_xi"), checkpoint.array("marker_log_growth")});
     strain_rates_ = {checkpoint.array("marker_drift_rate"), checkpoint.array("marker_growth_rate")};

@@ -16,6 +16,7 @@ namespace endoflow::boundary_integral {
 /// What this engine checks at a step beyond what all engines record.
 struct StepBalances {
     EnergyBalance energy;
+    double power_floor;  // what the energy's balance is relative to at rest, pN nm/µs
     FlowBalances flow;
     double inflow;         // of membrane at the rim, nm/µs
     double wall_distance;  // nm, 0 without walls
@@ -46,6 +47,9 @@ class HistoryRecorder {
     /// Time of the last row, µs.
     [[nodiscard]] double last_row() const { return last_row_; }
 
+    /// energy_balance_relative of the last row; 0 while what interpolating left relaxes, and after restore().
+    [[nodiscard]] double energy_balance() const { return energy_balance_; }
+
     void save(Checkpoint& checkpoint) const;
     void restore(const Checkpoint& checkpoint);
 
@@ -53,11 +57,14 @@ class HistoryRecorder {
     const Parameters& parameters_;
     const MembraneDynamics& dynamics_;
     RunOutput& output_;
+    RestLevel rest_;
     MaterialStrain strain_;
     MoleculeBalance molecules_;
     MaterialRates strain_rates_;  // at the last row
     double last_row_ = 0.0;       // µs
-    double settled_from_ = 0.0;   // µs
+    double largest_power_ = 0.0;  // so far, pN nm/µs
+    double energy_balance_ = 0.0;
+    double settled_from_ = 0.0;  // µs
 
     [[nodiscard]] double resolution_error(const MembraneState& state) const;
 };

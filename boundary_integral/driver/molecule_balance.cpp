@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "shared/model/rest.h"
 #include "shared/numerics/gauss_legendre.h"
 
 namespace endoflow::boundary_integral {
@@ -13,8 +14,8 @@ void MoleculeBalance::advance(double begin, double end, const std::function<doub
         exchanged_ += half * rule.weights[i] * rate(begin + half * (1.0 + rule.nodes[i]));
 }
 
-double MoleculeBalance::residual(double mass) const {
-    return std::abs(mass - first_mass_ - exchanged_) / first_mass_;
+double MoleculeBalance::residual(double mass, double floor) const {
+    return std::abs(mass - first_mass_ - exchanged_) / rest_floor(first_mass_, 0.0, floor);
 }
 
 }  // namespace endoflow::boundary_integral

@@ -19,8 +19,8 @@ class MoleculeBalance {
     [[nodiscard]] double first_mass() const { return first_mass_; }  ///< ∫ c dA at t = 0, nm²
     [[nodiscard]] double exchanged() const { return exchanged_; }    ///< since then, nm²
 
-    /// |mass − first mass − what has come| over the first mass.
-    [[nodiscard]] double residual(double mass) const;
+    /// |mass − first mass − what has come| over the first mass, or over `floor` nm² where that is larger.
+    [[nodiscard]] double residual(double mass, double floor) const;
 
   private:
     double first_mass_ = 0.0, exchanged_ = 0.0;

@@ -12,6 +12,7 @@
 #include "boundary_integral/evolution/refinement.h"
 #include "shared/case/resolution.h"
 #include "shared/model/time_scale.h"
+#include "shared/output/accuracy.h"
 #include "shared/output/phase_timer.h"
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
@@ -22,10 +23,12 @@ namespace {
 
 using IntegratorStatistics = StiffIntegrator::Statistics;
 
-/// Where steps are as long as a slowly growing coat lets them, a membrane that relaxes in less than a nanosecond must
-/// be at rest: what the iteration leaves of it is a velocity, 10⁵ times as large per time as over the step.
+/// Steps are as long as their error allows. A membrane that relaxes in less than a nanosecond must be at rest where a
+/// slowly growing coat lets steps be much longer: what the iteration leaves is a velocity, 10⁵ times as large per time
+/// as over the step.
 StepLimits step_limits(const Parameters& parameters) {
-    StepLimits limits{longest_step(parameters)};
+    StepLimits limits;
+    if (parameters.time.max_step > 0) limits.largest = parameters.time.max_step;
     if (parameters.molecules.exchange != Exchange::none) limits.iteration = 1e-5;
     return limits;
 }
@@ -145,6 +148,7 @@ class RunLoop {
 
     Parameters parameters_;  // resolved
     bool may_refine_;
+    double balance_bound_ = sharp_bound("energy-balance", parameters_).bound;
     IntegratorStatistics before_;
     RunOutput& output_;
     std::optional<Checkpoint> from_;
@@ -208,6 +212,16 @@ class RunLoop {
         refinements_ = {0.0};
         elements_ = {static_cast<double>(dynamics_.space().elements())};
         return {0.0, first_step(parameters_), dynamics_.initial_vector()};
+    }
+
+    // What the state and the flow that led to it say decides, so that a continued run adds elements where the
+    // uninterrupted one does: it starts where they were enough.
+    bool needs_more_elements() {
+        if (!may_refine_) return false;
+        const Index now = dynamics_.space().elements();
+        more_elements_ = elements_for(dynamics_.space(), dynamics_.unpack(integrator_.state()),
+                                      accuracy_of_elements(parameters_), history_.energy_balance(), balance_bound_);
+        return more_elements_ > now;
     }
 
     void make_operators(const Eigen::VectorXd& predicted) {

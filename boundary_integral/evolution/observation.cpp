@@ -89,10 +89,12 @@ WallDistance wall_distance(const MembraneSpace& space, const MembraneSamples& sa
     return walls;
 }
 
-double EnergyBalance::residual() const {
-    constexpr double slowest = 1e-9;  // 1/µs: what changes the energy more slowly is a membrane at rest
-    return std::abs(energy_rate + dissipated_power - diffusive_power - external_power) /
-           (std::abs(dissipated_power) + molecular_dissipation + std::abs(exchange_power) + slowest * energy);
+double EnergyBalance::moduli() const {
+    return std::abs(dissipated_power) + molecular_dissipation + std::abs(exchange_power);
+}
+
+double EnergyBalance::residual(double floor) const {
+    return std::abs(energy_rate + dissipated_power - diffusive_power - external_power) / std::max(moduli(), floor);
 }
 
 EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& e) {

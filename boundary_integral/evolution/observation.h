@@ -27,14 +27,17 @@ namespace endoflow::boundary_integral {
 /// Energy balance of a state: rate of E along the computed motion against the power given to the fluid, the energy that
 /// inflowing membrane brings along and the energy that diffusion of the molecules brings.
 struct EnergyBalance {
-    double energy;                          // pN nm
-    double energy_rate;                     // dE/dt, pN nm/µs
-    double dissipated_power;                // ∫ f.u dA, pN nm/µs
-    double diffusive_power;                 // dE/dt by all that changes c in the material, pN nm/µs
-    double external_power;                  // of the loads, pN nm/µs
-    double molecular_dissipation;           // ∫ M |∇μ|² of energetic coupling, pN nm/µs
-    double exchange_power;                  // dE/dt by molecules that come and go, pN nm/µs
-    [[nodiscard]] double residual() const;  // relative to the powers that only a motion, or exchange, has
+    double energy;                 // pN nm
+    double energy_rate;            // dE/dt, pN nm/µs
+    double dissipated_power;       // ∫ f.u dA, pN nm/µs
+    double diffusive_power;        // dE/dt by all that changes c in the material, pN nm/µs
+    double external_power;         // of the loads, pN nm/µs
+    double molecular_dissipation;  // ∫ M |∇μ|² of energetic coupling, pN nm/µs
+    double exchange_power;         // dE/dt by molecules that come and go, pN nm/µs
+    /// Of the powers that only a motion, or exchange, has.
+    [[nodiscard]] double moduli() const;
+    /// What the powers do not account for, relative to their moduli, or to `floor` where that is larger.
+    [[nodiscard]] double residual(double floor = 0.0) const;
 };
 [[nodiscard]] EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& evaluation);
 

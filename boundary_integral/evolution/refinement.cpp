@@ -46,8 +46,10 @@ Index initial_elements(const Parameters& parameters) {
     }
 }
 
-Index elements_for(const MembraneSpace& space, const MembraneState& state, double accuracy) {
-    const bool enough = estimate_resolution(space, state).relative_error() <= allowed_part * accuracy;
+Index elements_for(const MembraneSpace& space, const MembraneState& state, double accuracy, double balance,
+                   double balance_bound) {
+    const bool enough = balance <= allowed_part * balance_bound &&
+                        estimate_resolution(space, state).relative_error() <= allowed_part * accuracy;
     return enough ? space.elements() : std::max(space.elements(), more(space.elements()));
 }
 

@@ -78,7 +78,7 @@ Eigen::VectorXd BoxFlow::wall_unknowns(const MobilityOperators& operators, const
 }
 
 FlowBalances flow_balances(const MembraneSpace& space, const BoxFlow& box, const MobilityOperators& operators,
-                           const MembraneSamples& samples, const FlowSolution& flow) {
+                           const MembraneSamples& samples, const FlowSolution& flow, const RestLevel& rest) {
     const Eigen::VectorXd wall_unknowns = box.wall_unknowns(operators, flow);
     const MembraneFluxes membrane = membrane_fluxes(space, operators.samples, flow);
     const double area_growth = membrane_fluxes(space, samples, flow).area_growth;
@@ -98,13 +98,10 @@ FlowBalances flow_balances(const MembraneSpace& space, const BoxFlow& box, const
             band_modulus += std::abs(traction);
         }
     }
-    constexpr double tiny = 1e-300;
-    // A membrane that changes by less than 1e-9 of its size in a microsecond is at rest: fluxes are round-off there.
-    const double rest = 1e-9 * samples.rim_radius * samples.rim_radius;
-    return {std::abs(membrane.force + band_force) / (membrane.force_modulus + band_modulus + tiny),
-            (std::abs(out_below + membrane.volume) + std::abs(out_above - membrane.volume)) /
-                (membrane.volume_modulus + rest * samples.rim_radius),
-            std::abs(area_growth) / (std::abs(samples.rim_radius * flow.inflow) + rest)};
+    const double imbalance = std::abs(out_below + membrane.volume) + std::abs(out_above - membrane.volume);
+    return {std::abs(membrane.force + band_force) / rest_floor(membrane.force_modulus + band_modulus, 0.0, rest.force),
+            imbalance / rest_floor(membrane.volume_modulus, 0.0, rest.volume_rate()),
+            std::abs(area_growth) / rest_floor(std::abs(samples.rim_radius * flow.inflow), 0.0, rest.area_rate())};
 }
 
 }  // namespace endoflow::boundary_integral

@@ -35,9 +35,10 @@ class BoxFlow : public FlowModel {
     std::optional<LuFactors> wall_factors_;
 };
 
-/// `samples`: the shape that moves with `flow`; that of the operators may be another, close one.
+/// `samples`: the shape that moves with `flow`; that of the operators may be another, close one. Balances are relative
+/// to what is balanced, or to `rest` where that is larger.
 [[nodiscard]] FlowBalances flow_balances(const MembraneSpace& space, const BoxFlow& box,
                                          const MobilityOperators& operators, const MembraneSamples& samples,
-                                         const FlowSolution& flow);
+                                         const FlowSolution& flow, const RestLevel& rest = {});
 
 }  // namespace endoflow::boundary_integral

@@ -8,6 +8,7 @@
 
 #include "boundary_integral/membrane/energy.h"
 #include "boundary_integral/operators/layer_block.h"
+#include "shared/model/rest.h"
 
 namespace endoflow::boundary_integral {
 

@@ -42,13 +42,12 @@ MobilityOperators FreeSpaceFlow::operators(const MembraneState& state, const Mem
 }
 
 FlowBalances flow_balances(const MembraneSpace& space, const MobilityOperators& operators,
-                           const MembraneSamples& samples, const FlowSolution& flow) {
+                           const MembraneSamples& samples, const FlowSolution& flow, const RestLevel& rest) {
     const MembraneFluxes forces = membrane_fluxes(space, operators.samples, flow);
     const MembraneFluxes motion = membrane_fluxes(space, samples, flow);
-    constexpr double tiny = 1e-300;
-    return {std::abs(forces.force) / (forces.force_modulus + tiny),
-            std::abs(motion.volume) / (motion.volume_modulus + tiny),
-            std::abs(motion.area_growth) / (motion.area_modulus + tiny)};
+    return {std::abs(forces.force) / rest_floor(forces.force_modulus, 0.0, rest.force),
+            std::abs(motion.volume) / rest_floor(motion.volume_modulus, 0.0, rest.volume_rate()),
+            std::abs(motion.area_growth) / rest_floor(motion.area_modulus, 0.0, rest.area_rate())};
 }
 
 }  // namespace endoflow::boundary_integral

@@ -18,8 +18,10 @@ class FreeSpaceFlow : public FlowModel {
     int threads_;
 };
 
-/// `samples`: the shape that moves with `flow`; that of the operators may be another, close one.
+/// `samples`: the shape that moves with `flow`; that of the operators may be another, close one. Balances are relative
+/// to what is balanced, or to `rest` where that is larger.
 [[nodiscard]] FlowBalances flow_balances(const MembraneSpace& space, const MobilityOperators& operators,
-                                         const MembraneSamples& samples, const FlowSolution& flow);
+                                         const MembraneSamples& samples, const FlowSolution& flow,
+                                         const RestLevel& rest = {});
 
 }  // namespace endoflow::boundary_integral

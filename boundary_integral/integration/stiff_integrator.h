@@ -4,6 +4,7 @@
 #include <array>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,7 +28,7 @@ struct StiffProblem {
 inline constexpr double smallest_step = 1e-14;
 
 struct StepLimits {
-    double largest = 0.0;  ///< µs
+    double largest = std::numeric_limits<double>::infinity();  ///< µs
     double smallest = smallest_step;
     double iteration = 0.1;  ///< error that the iteration may leave, in units of the step's; 0.1 is CVODE's own
 };

@@ -27,7 +27,9 @@ BaseTrajectory::BaseTrajectory(const MembraneDynamics& dynamics, const Parameter
     problem.jacobian = [&] { return dynamics.jacobian(latest); };
     problem.error_scales = dynamics.error_scales(request.start, request.tolerance, request.tolerance);
     operators = dynamics.operators(request.start);
-    StiffIntegrator integrator(problem, {0.0, first_step(parameters), request.start}, {longest_step(parameters)});
+    StepLimits limits;
+    if (parameters.time.max_step > 0) limits.largest = parameters.time.max_step;
+    StiffIntegrator integrator(problem, {0.0, first_step(parameters), request.start}, limits);
     const auto radius_at = [&](double time) {
         return neck_radius(find_neck(dynamics.space(), dynamics.unpack(integrator.state_at(time))));
     };

@@ -9,10 +9,8 @@
 
 namespace endoflow::boundary_integral {
 
-/// boundary_integral.threads: 0 means all the machine has.
-[[nodiscard]] inline int thread_count(int wanted) {
-    return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
+/// boundary_integral.threads: 0 means one for each core that this process may use, at most OMP_NUM_THREADS.
+[[nodiscard]] int thread_count(int wanted);
 
 /// Calls body(begin, end) on `threads` contiguous parts of [0, count), each in its own thread; rethrows the first
 /// exception. The parts must not write to the same places. Starting a thread costs some 20 µs: for work of a

@@ -14,9 +14,15 @@ constexpr double part_at_rest = 1e-7, part_of_largest = 1e-9;
 }  // namespace
 
 RestLevel rest_level(const Parameters& p) {
-    const double stiffness = largest_stiffness(p.membrane), rate = part_at_rest / structure_time(p);
-    return {stiffness, stiffness * rate, length_of_structure(p) * rate,
-            std::numbers::pi * p.molecules.interface_width * p.molecules.interface_width};
+    RestLevel rest;
+    const double rate = part_at_rest / structure_time(p);
+    rest.energy = largest_stiffness(p.membrane);
+    rest.length = length_of_structure(p);
+    rest.power = rest.energy * rate;
+    rest.force = part_at_rest * rest.energy / rest.length;
+    rest.speed = rest.length * rate;
+    rest.area = std::numbers::pi * p.molecules.interface_width * p.molecules.interface_width;
+    return rest;
 }
 
 double rest_floor(double now, double largest_so_far, double level) {

@@ -39,6 +39,9 @@ struct AccuracyBound {
 /// All bounds of all engines; the table in docs/outputs.md is this one.
 [[nodiscard]] const std::vector<AccuracyBound>& accuracy_bounds();
 
+/// That of the sharp engine with this name in a case. Throws std::out_of_range when there is none.
+[[nodiscard]] const AccuracyBound& sharp_bound(const std::string& name, const Parameters& parameters);
+
 /// The bounds as a Markdown table.
 [[nodiscard]] std::string render_accuracy_markdown();
 

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "shared/output/accuracy.h"
 
 namespace endoflow {
@@ -128,6 +130,12 @@ const std::vector<AccuracyBound>& accuracy_bounds() {
         return bounds;
     }();
     return all;
+}
+
+const AccuracyBound& sharp_bound(const std::string& name, const Parameters& p) {
+    for (const AccuracyBound& bound : boundary_integral_bounds())
+        if (bound.name == name && (!bound.applies || bound.applies(p))) return bound;
+    throw std::out_of_range("no bound named " + name);
 }
 
 std::string render_accuracy_markdown() {

@@ -60,6 +60,7 @@ struct RunFiles::Implementation {
     double wall_before = 0;  // s, of the parts of this run before a restart
     double cpu_before = 0;
     double last_checkpoint = wall_seconds();
+    double last_checkpoint_us = 0;
     int checkpoints = 0;
     std::mutex saving;                 // of run.json
     std::string words_if_interrupted;  // run.json as of the last checkpoint
@@ -118,6 +119,7 @@ struct RunFiles::Implementation {
         } catch (const RunRecord::exception& failure) {
             throw incomplete_record(directory, failure);
         }
+        forget_events_after(record, restart_point->time_us);
         history = std::make_unique<HistoryFile>(directory.history(), engine.history_columns, std::move(kept_history));
         record["steps"]["accepted"] = history->rows();
         if (kept_shapes != directory.shapes()) copy_file_atomically(kept_shapes, directory.shapes());
@@ -187,12 +189,12 @@ struct RunFiles::Implementation {
     }
 
     /// How far the run got and where its results are; `how` begins the line.
-    void tell(const std::string& how) const {
+    void tell(const std::string& how, ExitReason reason) const {
         const std::string when = engine.row_order == RowOrder::in_time
                                      ? fmt::format(" at t = {:.6g} µs", record["time_us"].get<double>())
                                      : "";
         say(stdout, fmt::format("{}{}; results in {}{}\n", how, when, one_line(directory.root.string()),
-                                engine.row_order == RowOrder::in_time ? "; continue with --restart" : ""));
+                                way_on(reason, engine, parameters, last_checkpoint_us)));
     }
 
     void end(const std::string& state, const std::string& reason) {
@@ -318,6 +320,7 @@ void RunFiles::write_checkpoint(const Checkpoint& checkpoint) {
     complete.texts[checkpoint_entry::record] = self.record.dump();
     write_checkpoint_file(self.directory.checkpoint(), complete);
     self.last_checkpoint = wall_seconds();
+    self.last_checkpoint_us = checkpoint.time_us;
     ++self.checkpoints;
     self.sudden_end->checkpoint_written();
     RunRecord interrupted = self.record;
@@ -331,7 +334,8 @@ void RunFiles::finish(ExitReason reason) {
     implementation_->end(state_after(reason), to_string(reason));
     implementation_->tell(reason == ExitReason::interrupted ? "interrupted, checkpoint written,"
                           : reason == ExitReason::done      ? "finished"
-                                                            : "ended: " + to_string(reason) + ",");
+                                                            : "ended: " + to_string(reason) + ",",
+                          reason);
 }
 
 bool RunFiles::leave_interrupted() {

@@ -49,6 +49,25 @@ std::string to_string(ExitReason reason) {
     return "unknown";
 }
 
+std::string way_on(ExitReason reason, const EngineIdentity& engine, const Parameters& parameters,
+                   double checkpoint_us) {
+    if (engine.row_order != RowOrder::in_time) return "";
+    const std::string restart = "; continue with --restart";
+    switch (reason) {
+        case ExitReason::done:
+            return restart;
+        case ExitReason::budded:
+            return restart + " and output.stop_at_budding = false";
+        case ExitReason::neck_closed:
+            if (engine.name != "boundary-integral") return "";
+            return fmt::format("{} and a boundary_integral.neck_closed_radius below {:g} nm", restart,
+                               parameters.boundary_integral.neck_closed_radius);
+        case ExitReason::interrupted:
+            return fmt::format("{}, which goes on from t = {:.6g} µs", restart, checkpoint_us);
+    }
+    return "";
+}
+
 RunRecord new_record(const Parameters& parameters, const EngineIdentity& engine) {
     RunRecord record;
     record["format"] = "endoflow run";
@@ -158,6 +177,13 @@ void add_phase_time(RunRecord& record, const std::string& phase, double wall_s, 
 
 std::string state_after(ExitReason reason) {
     return reason == ExitReason::interrupted ? "interrupted" : "finished";
+}
+
+void forget_events_after(RunRecord& record, double time_us) {
+    RunRecord kept = RunRecord::object();
+    for (const auto& [name, event] : record.at("events").items())
+        if (event.at("time_us").get<double>() <= time_us) kept[name] = event;
+    record["events"] = kept;
 }
 
 bool ended_in_order(const RunRecord& record) {

@@ -30,6 +30,11 @@ enum class ExitReason { done, budded, neck_closed, interrupted };
 
 [[nodiscard]] std::string to_string(ExitReason reason);
 
+/// How a run that ended so goes on, to end a line with: "; continue with --restart" and what to change, for the same
+/// case would end the same way again. Empty where nothing can be changed. `checkpoint_us`: time of the last checkpoint.
+[[nodiscard]] std::string way_on(ExitReason reason, const EngineIdentity& engine, const Parameters& parameters,
+                                 double checkpoint_us);
+
 /// The content of run.json.
 using RunRecord = nlohmann::ordered_json;
 
@@ -65,6 +70,10 @@ void add_phase_time(RunRecord& record, const std::string& phase, double wall_s, 
 
 /// The state of a run that ended without an error.
 [[nodiscard]] std::string state_after(ExitReason reason);
+
+/// A run that goes on from `time_us` meets them again, or does not: with another boundary_integral.neck_closed_radius
+/// the neck closes later.
+void forget_events_after(RunRecord& record, double time_us);
 
 /// Whether the run that the record tells of had its last word: it is neither running nor was it killed.
 [[nodiscard]] bool ended_in_order(const RunRecord& record);

@@ -319,7 +319,9 @@ std::vector<ParameterRow> boundary_integral_rows() {
         row("boundary_integral", "quadrature_order", &P::boundary_integral, &S::quadrature_order, "", at_least(4, 20),
             "", "Gauss points per element"),
         free_on_restart(row("boundary_integral", "threads", &P::boundary_integral, &S::threads, "", at_least(0, 256),
-                            "", "threads that share the work; 0 = one per core")),
+                            "",
+                            "threads that share the work; 0 = one for each core that the process may use, at most "
+                            "OMP_NUM_THREADS")),
         row("boundary_integral", "mesh_curvature_length", &P::boundary_integral, &S::mesh_curvature_length, "nm",
             at_least(0, 1e3), "", "elements get short where the curvature exceeds the inverse of this"),
         row("boundary_integral", "mesh_edge_length", &P::boundary_integral, &S::mesh_edge_length, "nm",

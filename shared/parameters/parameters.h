@@ -130,8 +130,8 @@ struct BoundaryIntegralParameters {
     int elements = 0;
     int quadrature_order = 8;
     int threads = 0;
-    double mesh_curvature_length = 8;
-    double mesh_edge_length = 27;
+    double mesh_curvature_length = 20;
+    double mesh_edge_length = 32;
     double mesh_smoothing = 0.05;
     double mesh_relaxation_time = 0.002;
     int restart_interval = 200;

@@ -123,6 +123,28 @@ TEST_CASE("a checkpoint comes back bit by bit, the one before serves when it is 
     CHECK_THROWS_AS(read_checkpoint_file(directory.path()), IoError);
 }
 
+TEST_CASE("how a run goes on says what must change for another end, and from where") {
+    const auto sharp = test_engine();
+    auto diffuse = sharp, branch = sharp;
+    diffuse.name = "phase-field";
+    branch.row_order = RowOrder::along_a_branch;
+    const Parameters p;
+    CHECK(way_on(ExitReason::done, sharp, p, 1) == "; continue with --restart");
+    CHECK_THAT(way_on(ExitReason::budded, sharp, p, 1), Contains("output.stop_at_budding = false"));
+    CHECK_THAT(way_on(ExitReason::neck_closed, sharp, p, 1),
+               Contains("boundary_integral.neck_closed_radius below 0.5 nm"));
+    CHECK(way_on(ExitReason::neck_closed, diffuse, p, 1).empty());  // a membrane that came apart stays so
+    CHECK_THAT(way_on(ExitReason::interrupted, sharp, p, 0.04), Contains("--restart, which goes on from t = 0.04 µs"));
+    CHECK(way_on(ExitReason::done, branch, p, 1).empty());
+}
+
+TEST_CASE("events after the point from which a run goes on are forgotten") {
+    RunRecord record = {{"events", {{"budding", {{"time_us", 0.8}}}, {"neck_closed", {{"time_us", 2.3}}}}}};
+    forget_events_after(record, 0.8);
+    CHECK(record["events"].contains("budding"));
+    CHECK_FALSE(record["events"].contains("neck_closed"));
+}
+
 TEST_CASE("a run's directory: record, events, restart, and an earlier run that is kept") {
     const TemporaryDirectory directory;
     Parameters parameters;

@@ -58,6 +58,8 @@ TEST_CASE("the level of rest has the case's units, and a floor is the largest of
     CHECK(rest.energy == 600);
     CHECK(rest.power == Approx(1e-7 * 600 / structure_time(p)));
     CHECK(rest.speed == Approx(1e-7 * 14.1 / structure_time(p)).epsilon(1e-8));
+    CHECK(rest.force == Approx(1e-7 * 600 / 14.1).epsilon(1e-8));
+    CHECK(rest.length == length_of_structure(p));
     CHECK(rest.area == Approx(std::numbers::pi * 1.44));
     CHECK(rest_floor(2, 1e3, 1) == 2);
     CHECK(rest_floor(2, 1e10, 1) == 10);
