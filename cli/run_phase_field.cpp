@@ -122,7 +122,7 @@ class LastWords {
     static void end_with_another(RunFiles& output, const Others& others) {
         std::string reason = word_of_another(output);
         if (const auto gone = others.gone(); reason.empty() && gone)
-            reason = fmt::format("process {} ended without a word, killed perhaps for want of memory,", *gone);
+            reason = fmt::format("process {} ended without a word, killed perhaps for want of memory", *gone);
         if (reason.empty()) return;
         output.leave_failed(reason);
         std::_Exit(static_cast<int>(ExitCode::solver_stopped));

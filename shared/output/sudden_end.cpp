@@ -180,9 +180,9 @@ struct SuddenEnd::Implementation {
 
     void tell_everybody(const char* what_happened) const noexcept {
         Line message;
-        message << "unexpected-end: ";
-        message.plain(what_happened) << " in the step after t = ";
-        message.rounded(time.load()) << " µs (" << accepted.load() << " steps); "
+        message << "unexpected-end: after t = ";
+        message.rounded(time.load()) << " µs (" << accepted.load() << " steps): ";
+        message.plain(what_happened) << "; "
                                      << (checkpoint.load() ? "continue with --restart"
                                                            : "start again, for there is no checkpoint yet")
                                      << "; if it ends here again, choose another time.max_step or number of processes";
