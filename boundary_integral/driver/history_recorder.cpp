@@ -72,7 +72,7 @@ const std::vector<OwnColumn<StepBalances>>& own_history_columns() {
         {"net_flux_relative", "volume flux out of each phase", [](const B& b) { return b.flow.net_flux; }},
         {"area_balance_relative", "area growth against inflow of membrane", [](const B& b) { return b.flow.area; }},
         {"inflow_nm_per_us", "u_r at the rim", [](const B& b) { return b.inflow; }},
-        {"wall_distance_nm", "to the nearest wall, the rim's neighbourhood left out",
+        {"wall_distance_nm", "to the nearest wall, the rim's neighbourhood left out; empty without walls",
          [](const B& b) { return b.wall_distance; }},
         {"integrator_order", "order of the time step", [](const B& b) { return static_cast<double>(b.order); }},
         {"load_power_pN_nm_per_us", "power of rim tension, pressure and pole force",
@@ -128,11 +128,11 @@ void HistoryRecorder::record(double time, const Evaluation& evaluation, const St
     strain_rates_ = std::move(strain_rates);
     row.area_strain_max = strain_.largest();
     molecules_.advance(last_row_, time, [&](double t) { return dynamics_.exchanged_per_time(integrator.state_at(t)); });
-    row.extra =
-        own_values(own_history_columns(),
-                   {energy_balance(dynamics_, evaluation), balances(dynamics_, evaluation), evaluation.flow.inflow,
-                    walls ? walls->smallest() : 0.0, integrator.last_order(), line_energy, molecules_.exchanged(),
-                    molecules_.residual(row.membrane.molecule_mass), resolution_error(evaluation.state)});
+    row.extra = own_values(
+        own_history_columns(),
+        {energy_balance(dynamics_, evaluation), balances(dynamics_, evaluation), evaluation.flow.inflow,
+         walls ? std::optional(walls->smallest()) : std::nullopt, integrator.last_order(), line_energy,
+         molecules_.exchanged(), molecules_.residual(row.membrane.molecule_mass), resolution_error(evaluation.state)});
     output_.record_step(row);
     last_row_ = time;
 }

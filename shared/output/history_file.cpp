@@ -121,7 +121,7 @@ void HistoryFile::append(const HistoryRow& row) {
         if (!line.empty()) line += ",";
         if (const auto value = column.value(row)) line += number(*value, column.name);
     }
-    for (const double value : row.extra) line += "," + number(value, "a column of history.csv");
+    for (const auto& value : row.extra) line += value ? "," + number(*value, "a column of history.csv") : ",";
     stream_ << line << '\n' << std::flush;
     if (!stream_) throw IoError(path_.string() + ": a row cannot be written; check the disk's space and permissions");
     times_.push_back(row.time_us);
