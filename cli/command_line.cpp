@@ -69,11 +69,13 @@ struct RunOptions {
 
     explicit RunOptions(const std::string& engine)
         : app("Runs a case with the " + engine + " engine", "endoflow run " + engine) {
-        app.add_option("CASE", request.case_file, case_help)->required();
-        app.add_option("-o,--output", request.directory, "directory of the run [out/CASE/" + engine + "]");
-        app.add_option("--set", overrides, "section.key=value, overrides the case file; may be repeated")
+        app.add_option("CASE", request.case_file, case_help)->required()->type_name("");
+        app.add_option("-o,--output", request.directory, "directory of the run [out/CASE/" + engine + "]")
+            ->type_name("DIR");
+        app.add_option("--set", overrides, "overrides the case file; may be repeated")
+            ->type_name(setting)
             ->allow_extra_args(false);
-        app.add_option("--until", until, "time.end in µs");
+        app.add_option("--until", until, "time.end in µs")->type_name("T");
         app.add_flag("--restart", request.restart, "continue from the checkpoint in the run's directory");
         app.add_flag("--certify", certify,
                      "make more accurate runs, too, in DIR/certify: budding time, neck and area get an error; takes "

@@ -22,6 +22,9 @@ struct RunRequest {
 /// What every command says of its case file.
 inline constexpr const char* case_help = "case file (TOML), or the name of one that comes with endoflow";
 
+/// What --set takes, as help shows it.
+inline constexpr const char* setting = "section.key=value";
+
 /// Parses the arguments behind `endoflow run ENGINE` and reads the case. Returns nothing when --help was answered.
 /// Throws InputError and IoError.
 [[nodiscard]] std::optional<RunRequest> parse_run_request(int argc, char** argv, const std::string& engine);

@@ -88,7 +88,7 @@ int params(int argc, char** argv) {
     CLI::App app("Lists every parameter", "endoflow params");
     bool markdown = false, toml = false, json = false;
     std::string name;
-    app.add_option("SECTION", name, "of this section, or the parameter section.key [all]");
+    app.add_option("SECTION", name, "of this section, or the parameter section.key [all]")->type_name("");
     auto* first = app.add_flag("--markdown", markdown, "as Markdown tables");
     auto* second = app.add_flag("--toml", toml, "as an annotated case file")->excludes(first);
     app.add_flag("--json", json, "as a list with all that is known of each")->excludes(first)->excludes(second);
@@ -105,8 +105,10 @@ int check(int argc, char** argv) {
     CLI::App app("Validates a case file", "endoflow check");
     std::string file;
     std::vector<std::string> overrides;
-    app.add_option("CASE", file, case_help)->required();
-    app.add_option("--set", overrides, "section.key=value, overrides the case file")->allow_extra_args(false);
+    app.add_option("CASE", file, case_help)->required()->type_name("");
+    app.add_option("--set", overrides, "overrides the case file; may be repeated")
+        ->type_name(setting)
+        ->allow_extra_args(false);
     bool json = false;
     app.add_flag("--json", json, "print every parameter with its value");
     if (!parse(app, argc, argv)) return 0;
@@ -127,8 +129,10 @@ int laws(int argc, char** argv) {
     CLI::App app("Prints the constitutive laws as CSV", "endoflow laws");
     std::string file;
     std::vector<std::string> overrides;
-    app.add_option("CASE", file, "case file (TOML) with another membrane than the paper's");
-    app.add_option("--set", overrides, "section.key=value, overrides the case file")->allow_extra_args(false);
+    app.add_option("CASE", file, "case file (TOML) with another membrane than the paper's")->type_name("");
+    app.add_option("--set", overrides, "overrides the case file; may be repeated")
+        ->type_name(setting)
+        ->allow_extra_args(false);
     if (!parse(app, argc, argv)) return 0;
     const Parameters parameters =
         file.empty() ? parse_case("", "the paper's case", overrides) : read_case(find_case(file), overrides);
@@ -139,7 +143,7 @@ int laws(int argc, char** argv) {
 int summary(int argc, char** argv) {
     CLI::App app("One screen about a run", "endoflow summary");
     std::string directory;
-    app.add_option("DIR", directory, "directory of a run")->required();
+    app.add_option("DIR", directory, "directory of a run")->required()->type_name("");
     if (!parse(app, argc, argv)) return 0;
     fmt::print("{}", summarize_run(directory));
     return 0;

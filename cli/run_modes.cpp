@@ -37,11 +37,12 @@ int run(int argc, char** argv) {
                  "endoflow modes");
     boundary_integral::ModesRequest request;
     std::string modes = "1:8";
-    app.add_option("RUN_DIR", request.run, "directory of the run")->required();
-    app.add_option("-o,--output", request.directory, "directory of the result [RUN_DIR/modes]");
-    app.add_option("--modes", modes, "FIRST:LAST azimuthal modes [1:8]");
-    app.add_option("--times", request.times, "at this many evenly spread times, and at budding [20]");
-    app.add_option("--tolerance", request.tolerance, "relative error of a perturbation in one step [0.01]");
+    app.add_option("RUN_DIR", request.run, "directory of the run")->required()->type_name("");
+    app.add_option("-o,--output", request.directory, "directory of the result [RUN_DIR/modes]")->type_name("DIR");
+    app.add_option("--modes", modes, "azimuthal modes [1:8]")->type_name("FIRST:LAST");
+    app.add_option("--times", request.times, "at this many evenly spread times, and at budding [20]")->type_name("N");
+    app.add_option("--tolerance", request.tolerance, "relative error of a perturbation in one step [0.01]")
+        ->type_name("X");
     bool tables_only = false;
     app.add_flag("--tables-only", tables_only, "no plots, no page, no surfaces");
     if (!parse(app, argc, argv)) return 0;

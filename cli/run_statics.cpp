@@ -22,18 +22,21 @@ int run(int argc, char** argv) {
     std::vector<std::string> overrides;
     std::string continuation, family;
     statics::Request request;
-    app.add_option("CASE", case_file, case_help)->required();
-    app.add_option("-o,--output", directory, "directory of the result [out/CASE/statics]");
-    app.add_option("--set", overrides, "section.key=value, overrides the case file; may be repeated")
+    app.add_option("CASE", case_file, case_help)->required()->type_name("");
+    app.add_option("-o,--output", directory, "directory of the result [out/CASE/statics]")->type_name("DIR");
+    app.add_option("--set", overrides, "overrides the case file; may be repeated")
+        ->type_name(setting)
         ->allow_extra_args(false);
-    app.add_option("--continue-in", continuation,
-                   "section.key=END: all stationary shapes from the case's value to END");
+    app.add_option("--continue-in", continuation, "all stationary shapes from the case's value to END")
+        ->type_name("section.key=END");
     app.add_flag("--disc-mass", request.disc_mass,
                  "the molecules' mass is π patch_radius², not that of the initial profile, which is a little larger");
     app.add_option("--elements", request.resolution.elements,
                    "of the collocation while a branch is followed; a state is solved on twice as many")
+        ->type_name("N")
         ->capture_default_str();
-    app.add_option("--family", family, "of a vesicle: prolate, oblate or stomatocyte [as the case's spheroid is]");
+    app.add_option("--family", family, "of a vesicle: prolate, oblate or stomatocyte [as the case's spheroid is]")
+        ->type_name("NAME");
     if (!parse(app, argc, argv)) return 0;
     require_one_process("endoflow statics", "");
     if (!family.empty()) request.family = statics::parse_family(family);

@@ -9,8 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "shared/model/bending_model.h"
 #include "shared/output/history_file.h"
+#include "shared/output/run_lock.h"
 #include "shared/output/run_record.h"
+#include "shared/parameters/parameter_table.h"
 #include "shared/support/error.h"
 
 namespace endoflow::cli {
@@ -95,6 +98,25 @@ std::string sharp_resolution(const RunRecord& record) {
     return text;
 }
 
+/// β and C of the bare and the coated membrane, which the convention makes of b and H0.
+std::string bending(const RunRecord& recorded) {
+    Parameters parameters;
+    for (const ParameterRow& row : parameter_table()) {
+        if (row.section != "membrane" || !recorded.contains(row.key)) continue;
+        const RunRecord& value = recorded.at(row.key);
+        const std::string where = "run.json";
+        if (value.is_string())
+            set_parameter(parameters, row, value.get<std::string>(), where);
+        else if (value.is_boolean())
+            set_parameter(parameters, row, value.get<bool>(), where);
+        else
+            set_parameter(parameters, row, value.get<double>(), where);
+    }
+    const BendingModel model(parameters.membrane);
+    return fmt::format("β(0) = {:g}, β(1) = {:g} pN nm, C(1) = {:.5g} 1/nm", model.stiffness(0).value,
+                       model.stiffness(1).value, model.spontaneous_curvature(1).value);
+}
+
 /// What the numbers rest on: conventions and resolution.
 std::string basis(const RunRecord& record) {
     const RunRecord& parameters = record.at("parameters");
@@ -110,8 +132,9 @@ std::string basis(const RunRecord& record) {
         resolution = fmt::format("{} elements", notes.value("elements", elements));
     }
     if (record.at("engine") == "boundary-integral") resolution += sharp_resolution(record);
-    return fmt::format("  curvature convention {}; {}\n",
-                       parameters.at("membrane").at("curvature_convention").get<std::string>(), resolution);
+    return fmt::format("  curvature convention {}: {}; {}\n",
+                       parameters.at("membrane").at("curvature_convention").get<std::string>(),
+                       bending(parameters.at("membrane")), resolution);
 }
 
 /// Value ± error of what `--certify` looked at; the error has one digit, the value as many.
@@ -140,14 +163,24 @@ std::string alarms(const RunRecord& record) {
     return text.empty() ? "  no alarms: every balance stayed within its bound\n" : text;
 }
 
-std::string describe(const RunRecord& record, const std::filesystem::path& directory) {
-    const auto& steps = record.at("steps");
+/// Whether the run works, how it ended, or what to do about one that was killed.
+std::string state(const RunRecord& record, const RunDirectory& directory) {
+    const auto state = record.at("state").get<std::string>();
     const auto& reason = record.at("exit_reason");
-    std::string text = fmt::format("{}: case '{}', {} engine\n", directory.string(),
+    if (state == "killed") {
+        const bool continues = record.at("engine") != "statics" && directory.holds_checkpoint();
+        return "killed, no longer running; " +
+               std::string(continues ? "continue with --restart" : "run it again, it left no checkpoint");
+    }
+    return fmt::format("{} ({})", state, reason.is_string() ? reason.get<std::string>() : "no exit reason yet");
+}
+
+std::string describe(const RunRecord& record, const RunDirectory& directory) {
+    const auto& steps = record.at("steps");
+    std::string text = fmt::format("{}: case '{}', {} engine\n", one_line(directory.root.string()),
                                    record.at("parameters").at("case").at("name").get<std::string>(),
                                    record.at("engine").get<std::string>());
-    text += fmt::format("  {} ({}), {}\n", record.at("state").get<std::string>(),
-                        reason.is_string() ? reason.get<std::string>() : "no exit reason yet", reached(record));
+    text += fmt::format("  {}, {}\n", state(record, directory), reached(record));
     text += fmt::format("  {} steps, {} rejected; {:.1f} s wall, {:.1f} s CPU, {} process(es); version {} ({})\n",
                         steps.at("accepted").get<long>(), steps.at("rejected").get<long>(),
                         record.at("wall_s").get<double>(), record.at("cpu_s").get<double>(),
@@ -163,10 +196,10 @@ std::string describe(const RunRecord& record, const std::filesystem::path& direc
 
 std::string summarize_run(const std::filesystem::path& root) {
     const RunDirectory directory{root};
-    const RunRecord record = read_record(directory);
+    const RunRecord record = read_current_record(directory);
     try {
         const bool moves = record.at("engine") != "statics";
-        return describe(record, root) + (moves ? "last step:\n" : "last shape:\n") + last_row(directory, moves);
+        return describe(record, directory) + (moves ? "last step:\n" : "last shape:\n") + last_row(directory, moves);
     } catch (const RunRecord::exception& failure) {
         throw IoError(fmt::format("{}: not a complete run record: {}", directory.record().string(), failure.what()));
     }

@@ -9,9 +9,3 @@ class StudyError(Exception):
     def __init__(self, message, exit_code):
         super().__init__(message)
         self.exit_code = exit_code
-
-
-def last_line(text):
-    """The last line that is not empty, without the program's name in front; "" when there is none."""
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
-    return lines[-1].removeprefix("endoflow: ") if lines else ""

@@ -83,7 +83,7 @@ const std::vector<OwnColumn<ShapeRecord>>& own_shape_columns() {
         {"potential_pN_nm", "𝒢 = E + E_c + σ A − p V − F z̄", [](const R& r) { return r.integrals.potential(r.loads); }},
         {"line_energy_pN_nm", "E_c of the coat's edge, under energetic coupling",
          [](const R& r) { return r.integrals.edge; }},
-        {"followed_value", "of the key the branch goes along", [](const R& r) { return r.point.solution.parameter; }},
+        {followed_value.name, followed_value.meaning, [](const R& r) { return r.point.solution.parameter; }},
     };
     return columns;
 }

@@ -7,7 +7,8 @@
 
 namespace endoflow::statics {
 
-Json StateWriter::write(const MembraneCurve& curve, const BendingModel& bending, std::vector<double> extra) {
+Json StateWriter::write(const MembraneCurve& curve, const BendingModel& bending,
+                        std::vector<std::optional<double>> extra) {
     const Observables seen = measure(curve, bending);
     HistoryRow row;
     row.time_us = count_;
@@ -47,6 +48,7 @@ void describe_branch(const StateWriter& writer, const std::string& key, double b
     const std::string& unit = find_parameter(key)->unit;
     const double end = branch.last.solution.parameter;
     writer.output().note("branch", {{"parameter", key},
+                                    {"unit", unit},
                                     {"begin", begin},
                                     {"end", end},
                                     {"ended_because", ended_because},

@@ -10,6 +10,9 @@ namespace endoflow::statics {
 
 using Json = nlohmann::ordered_json;
 
+/// The column of history.csv that a branch goes along, of membranes in the box and of vesicles.
+inline const ColumnText followed_value{"followed_value", "of the key the branch goes along"};
+
 /// Points of the curves in shapes.h5.
 inline constexpr std::size_t curve_points = 1001;
 
@@ -22,7 +25,7 @@ class StateWriter {
     [[nodiscard]] int count() const { return count_; }
 
     /// Writes one shape, `extra` going to the engine's own columns; returns what can be measured on it.
-    Json write(const MembraneCurve& curve, const BendingModel& bending, std::vector<double> extra);
+    Json write(const MembraneCurve& curve, const BendingModel& bending, std::vector<std::optional<double>> extra);
 
   private:
     RunOutput& output_;

@@ -38,6 +38,7 @@ const std::vector<OwnColumn<VesicleRecord>>& own_vesicle_columns() {
          [](const R& r) { return r.place.arc_length; }},
         {"folds_passed", "folds of the branch before this shape",
          [](const R& r) { return static_cast<double>(r.place.folds_before); }},
+        {followed_value.name, followed_value.meaning, [](const R& r) { return r.place.solution.parameter; }},
     };
     return columns;
 }

@@ -74,7 +74,7 @@ const std::vector<OwnColumn<StepBalances>>& own_history_columns() {
         {"net_flux_relative", "volume flux out of each phase", [](const B& b) { return b.flow.net_flux; }},
         {"area_balance_relative", "area growth against inflow of membrane", [](const B& b) { return b.flow.area; }},
         {"inflow_nm_per_us", "u_r at the rim", [](const B& b) { return b.inflow; }},
-        {"wall_distance_nm", "to the nearest wall, the rim's neighbourhood left out",
+        {"wall_distance_nm", "to the nearest wall, the rim's neighbourhood left out; empty without walls",
          [](const B& b) { return b.wall_distance; }},
         {"integrator_order", "order of the time step", [](const B& b) { return static_cast<double>(b.order); }},
         {"load_power_pN_nm_per_us", "power of rim tension, pressure and pole force",
@@ -141,8 +141,9 @@ void HistoryRecorder::record(double time, const Evaluation& evaluation, const St
     row.extra =
         own_values(own_history_columns(),
                    {energy, power_floor, balances(dynamics_, evaluation, rest_), evaluation.flow.inflow,
-                    walls ? walls->smallest() : 0.0, integrator.last_order(), line_energy, molecules_.exchanged(),
-                    molecules_.residual(row.membrane.molecule_mass, rest_.area), resolution_error(evaluation.state)});
+                    walls ? std::optional(walls->smallest()) : std::nullopt, integrator.last_order(), line_energy,
+                    molecules_.exchanged(), molecules_.residual(row.membrane.molecule_mass, rest_.area),
+                    resolution_error(evaluation.state)});
     output_.record_step(row);
     last_row_ = time;
 }

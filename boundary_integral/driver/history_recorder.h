@@ -18,10 +18,10 @@ struct StepBalances {
     EnergyBalance energy;
     double power_floor;  // what the energy's balance is relative to at rest, pN nm/µs
     FlowBalances flow;
-    double inflow;         // of membrane at the rim, nm/µs
-    double wall_distance;  // nm, 0 without walls
-    int order;             // of the integrator
-    double line_energy;    // E_c, pN nm
+    double inflow;                        // of membrane at the rim, nm/µs
+    std::optional<double> wall_distance;  // nm, none without walls
+    int order;                            // of the integrator
+    double line_energy;                   // E_c, pN nm
     double exchanged, molecule_balance;
     double resolution_error;  // estimated, of neck radius and budding time, relative
 };

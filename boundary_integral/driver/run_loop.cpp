@@ -95,12 +95,13 @@ class RunLoop {
         return reason;
     }
 
-    // Only what the state itself says decides, so that a continued run adds elements where the uninterrupted one does.
+    // What the state and the flow that led to it say decides, so that a continued run adds elements where the
+    // uninterrupted one does: it starts where they were enough.
     bool needs_more_elements() {
         if (!may_refine_ || at_end()) return false;
         const Index now = dynamics_.space().elements();
-        more_elements_ =
-            elements_for(dynamics_.space(), dynamics_.unpack(integrator_.state()), accuracy_of_elements(parameters_));
+        more_elements_ = elements_for(dynamics_.space(), dynamics_.unpack(integrator_.state()),
+                                      accuracy_of_elements(parameters_), history_.energy_balance(), balance_bound_);
         return more_elements_ > now;
     }
 
@@ -212,16 +213,6 @@ class RunLoop {
         refinements_ = {0.0};
         elements_ = {static_cast<double>(dynamics_.space().elements())};
         return {0.0, first_step(parameters_), dynamics_.initial_vector()};
-    }
-
-    // What the state and the flow that led to it say decides, so that a continued run adds elements where the
-    // uninterrupted one does: it starts where they were enough.
-    bool needs_more_elements() {
-        if (!may_refine_) return false;
-        const Index now = dynamics_.space().elements();
-        more_elements_ = elements_for(dynamics_.space(), dynamics_.unpack(integrator_.state()),
-                                      accuracy_of_elements(parameters_), history_.energy_balance(), balance_bound_);
-        return more_elements_ > now;
     }
 
     void make_operators(const Eigen::VectorXd& predicted) {

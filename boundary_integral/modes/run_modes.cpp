@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "boundary_integral/modes/mode_files.h"
+#include "shared/output/run_directory.h"
 #include "shared/support/error.h"
 
 namespace endoflow::boundary_integral {
@@ -32,9 +33,10 @@ void write_modes(const ModesRequest& request, const std::function<void(const std
     }
     if (request.times < 1) throw InputError("--times: at least 1");
     if (!(request.tolerance > 0.0 && request.tolerance < 1.0)) throw InputError("--tolerance: between 0 and 1");
-    const AlongRun run(RecordedRun(request.run), request.first_mode, request.last_mode);
+    const RecordedRun recorded(request.run);
+    RunDirectory{request.directory}.make_root();  // before the work for what it is to hold
+    const AlongRun run(recorded, request.first_mode, request.last_mode);
     progress(fmt::format("the run's shapes lie within {:.2g} nm of the motion that is followed", run.distance()));
-    std::filesystem::create_directories(request.directory);
     ModeFiles files(request.directory, run);
     PerturbationGrowth growth(run, request.tolerance);
     for (const double time : times_of(run.trajectory(), request.times)) {

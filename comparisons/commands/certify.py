@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from comparisons.errors import IO_FAILURE, RUN_FAILED, StudyError
-from comparisons.files import write_json
+from comparisons.files import shown, write_json
 from comparisons.studies.study import lock, program, report_failures, run_members
 
 from .options import case_parser, common_settings
@@ -102,5 +102,5 @@ def run(options):
         print(f"{entry['title']:<14} {in_words(entry)}")
     if not found["values"]:
         raise StudyError(f"{output}: the runs share no quantity that could be certified", IO_FAILURE)
-    print(f"results in {output}, what certifies them in {output / 'certify'}")
+    print(f"results in {shown(output)}, what certifies them in {shown(output / 'certify')}")
     return 0

@@ -7,7 +7,7 @@ cannot be written; 130 interrupted.
 import sys
 from pathlib import Path
 
-from comparisons.files import write_json, write_text
+from comparisons.files import require_writable, shown, write_json, write_text
 
 from .options import Parser
 
@@ -39,6 +39,7 @@ def write_comparison(a, b, output):
     from comparisons.page.report import report_html
 
     run_a, run_b = side_by_side(endoflow.load(a), endoflow.load(b))
+    require_writable(output)
     labels = style.labels(run_a, run_b)
     metrics = compare_runs(run_a, run_b, labels)
     output.mkdir(parents=True, exist_ok=True)
@@ -65,7 +66,7 @@ def summary_lines(metrics, output):
         f"Hausdorff distance   at most {found['max_hausdorff_distance_nm']:.3g} nm, at {worst:.4g} µs{share}",
         f"at the end           {found['final_mean_distance_nm']:.3g} nm on average, "
         f"{found['final_hausdorff_distance_nm']:.3g} nm at most",
-        f"report               {output / 'report.html'}",
+        f"report               {shown(output / 'report.html')}",
     ]
 
 
@@ -73,6 +74,6 @@ def run(options):
     """Run the command; returns its exit code."""
     metrics = write_comparison(options.a, options.b, options.output)
     for warning in metrics["warnings"]:
-        print(f"endoflow compare: warning: {warning}", file=sys.stderr)
+        print(f"endoflow compare: warning: {shown(warning)}", file=sys.stderr)
     print("\n".join(summary_lines(metrics, options.output)))
     return 0

@@ -8,7 +8,7 @@ plots and report.html. Exit codes: 0 done; 2 bad command line or parameter; 3 a 
 import sys
 
 from comparisons.errors import BAD_INPUT, RUN_FAILED, StudyError
-from comparisons.files import write_json, write_text
+from comparisons.files import shown, write_json, write_text
 from comparisons.studies.study import lock, program, report_failures, run_members
 
 from .options import case_parser, common_settings, output_directory
@@ -123,7 +123,7 @@ def summary_lines(metrics, output):
         if entry["time_us"] in (last, None) and entry["value"] is not None and entry["sharp"] is not None:
             value = f"{entry['value']:.6g} ± {entry['error']:.2g}"
             lines.append(f"limit  {entry['quantity']:26} {value:>22}   sharp: {entry['sharp']:.6g}")
-    return [f"at {last:.4g} µs:", *lines, f"report {output / 'report.html'}"]
+    return [f"at {last:.4g} µs:", *lines, f"report {shown(output / 'report.html')}"]
 
 
 def run(options):
@@ -144,6 +144,6 @@ def run(options):
         failed = report_failures("converge", outcomes)
         metrics = write_results(sharp, diffuse, times, output)
         for warning in metrics["warnings"]:
-            print(f"endoflow converge: warning: {warning}", file=sys.stderr)
+            print(f"endoflow converge: warning: {shown(warning)}", file=sys.stderr)
         print("\n".join(summary_lines(metrics, output)))
         return RUN_FAILED if failed else 0

@@ -5,7 +5,7 @@ Exit codes: 0 done; 2 bad command line; 4 the run cannot be read or the file can
 
 from pathlib import Path
 
-from comparisons.files import write_json
+from comparisons.files import shown, write_json
 
 from .options import Parser
 
@@ -28,5 +28,5 @@ def run(options):
     found = endoflow.load(options.directory)
     path = options.directory / "ro-crate-metadata.json"
     write_json(path, crate(found, options.license))
-    print(f"metadata  {path}")
+    print(f"metadata  {shown(path)}")
     return 0

@@ -6,12 +6,14 @@ import sys
 from pathlib import Path
 
 from comparisons.errors import BAD_INPUT, INTERRUPTED, IO_FAILURE, StudyError
+from comparisons.files import shown, take_any_name
 
 from . import NAMES
 
 
 def call(arguments):
     """Run `NAME …`, the arguments of `endoflow`; returns the exit code."""
+    take_any_name(sys.stdout, sys.stderr)
     name = arguments[0] if arguments else ""
     if name not in NAMES:
         print(f"endoflow: unknown command '{name}'; known: {', '.join(NAMES)}", file=sys.stderr)
@@ -53,7 +55,7 @@ def guarded(command, body):
     """Call body() for an exit code; whatever it raises becomes one line on stderr and an exit code."""
 
     def complain(text, code):
-        print(f"endoflow {command}: {text}", file=sys.stderr)
+        print(f"endoflow {command}: {shown(text)}", file=sys.stderr)
         return code
 
     try:

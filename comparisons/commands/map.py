@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 from comparisons.errors import BAD_INPUT, RUN_FAILED, StudyError
-from comparisons.files import write_text
+from comparisons.files import shown, write_text
 from comparisons.studies.study import lock, program, run_members
 
 from .options import case_parser, common_settings, output_directory, positive_integer, require_apart
@@ -161,8 +161,8 @@ def write_results(runs, known, cells, folds, units, output):
     counts = ", ".join(f"{outcomes.count(name)} {name}" for name in dict.fromkeys(outcomes))
     return [
         f"runs    {len(rows)} instead of the {full} of the full grid: {counts}",
-        f"table   {output / 'boundaries.csv' if lines else 'no boundary: one outcome everywhere'}",
-        f"report  {output / 'report.html'}",
+        f"table   {shown(output / 'boundaries.csv') if lines else 'no boundary: one outcome everywhere'}",
+        f"report  {shown(output / 'report.html')}",
     ]
 
 

@@ -7,7 +7,7 @@ read or files cannot be written; 130 interrupted.
 import argparse
 from pathlib import Path
 
-from comparisons.files import write_text
+from comparisons.files import shown, write_text
 
 #: Distance of points along the membrane in the surfaces, nm.
 SPACING = 1.2
@@ -52,6 +52,6 @@ def run(options):
     record = read_record(options.run) if options.run else None
     basis = common_basis([record] if record else [])
     write_text(options.directory / "report.html", modes_html(modes, basis, drawn, options.directory))
-    print(f"report  {options.directory / 'report.html'}")
-    print(f"ParaView  {options.directory / 'membrane_modes.pvd'}")
+    print(f"report  {shown(options.directory / 'report.html')}")
+    print(f"ParaView  {shown(options.directory / 'membrane_modes.pvd')}")
     return 0

@@ -6,7 +6,7 @@ written; 130 interrupted.
 
 from pathlib import Path
 
-from comparisons.files import write_text
+from comparisons.files import require_writable, shown, write_text
 
 from .options import Parser
 
@@ -27,8 +27,9 @@ def run(options):
 
     found = endoflow.load(options.directory)
     output = options.output or options.directory / "report"
+    require_writable(output)
     output.mkdir(parents=True, exist_ok=True)
     drawn = run_plots.write_all(found, output)
     write_text(output / "report.html", run_html(found, drawn, output))
-    print(f"report  {output / 'report.html'}")
+    print(f"report  {shown(output / 'report.html')}")
     return 0

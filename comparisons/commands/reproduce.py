@@ -14,7 +14,7 @@ from pathlib import Path
 
 from comparisons import ROOT
 from comparisons.errors import RUN_FAILED, StudyError
-from comparisons.files import write_text
+from comparisons.files import shown, write_text
 from comparisons.studies.study import lock, program, run_members
 
 from .options import study_parser
@@ -217,5 +217,5 @@ def run(options):
         if members:  # branches of stationary shapes are no runs
             write_table(output / "runs.csv", run_table.rows(members))
         write_text(output / "index.html", page.index_html(output))
-        print(f"pages   {output / 'index.html'}")
+        print(f"pages   {shown(output / 'index.html')}")
     return RUN_FAILED if found and len(not_run(found)) == len(found) else 0

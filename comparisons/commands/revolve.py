@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.files import write_text
+from comparisons.files import require_writable, shown, write_text
 
 from .options import Parser, positive_integer
 
@@ -60,6 +60,7 @@ def run(options):
     output = options.output or options.directory
     chosen = np.unique(np.linspace(0, len(run.shapes) - 1, min(options.most, len(run.shapes))).round().astype(int))
     folder = output / "membrane"
+    require_writable(folder)
     folder.mkdir(parents=True, exist_ok=True)
     entries = []
     for index in chosen:
@@ -67,5 +68,5 @@ def run(options):
         write_text(file, polydata_text(*surface(run.shapes[index], options.angle)))
         entries.append((run.shapes[index].time, f"membrane/{file.name}"))
     write_collection(output / "membrane.pvd", entries)
-    print(f"{len(entries)} times: {output / 'membrane.pvd'}")
+    print(f"{len(entries)} {'shapes' if run.engine == 'statics' else 'times'}: {shown(output / 'membrane.pvd')}")
     return 0

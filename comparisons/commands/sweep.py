@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 from comparisons.errors import RUN_FAILED
-from comparisons.files import write_text
+from comparisons.files import shown, write_text
 from comparisons.studies.study import lock, program, report_failures, run_members
 
 from .options import case_parser, common_settings, output_directory, require_apart
@@ -85,7 +85,7 @@ def summary_lines(rows, output):
     """What the terminal shows at the end, as a list of lines."""
     states = [row["state"] for row in rows]
     counts = ", ".join(f"{states.count(state)} {state}" for state in dict.fromkeys(states))
-    return [f"runs    {counts}", f"table   {output / 'sweep.csv'}", f"report  {output / 'report.html'}"]
+    return [f"runs    {counts}", f"table   {shown(output / 'sweep.csv')}", f"report  {shown(output / 'report.html')}"]
 
 
 def run(options):

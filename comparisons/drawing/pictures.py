@@ -9,6 +9,7 @@ from scipy.spatial import cKDTree
 from comparisons.drawing import plots
 from comparisons.drawing import style
 from comparisons.drawing.pyplot import plt
+from comparisons.measures.extent import half_width
 from endoflow.curves import arc_length
 
 #: Distance of arrows along the membrane, and of those in the fluid, nm.
@@ -28,7 +29,7 @@ def gallery(rows, margin=7.0):
     """A figure of panels. rows: [(row title, [Panel])]; margin: nm below and above all membranes."""
     shapes = [panel.shape for _, panels in rows for panel in panels if not isinstance(panel.shape, str)]
     z_range = plots.vertical_range(shapes, margin) if shapes else (60.0, 140.0)
-    rim = max((shape.r[-1] for shape in shapes), default=80.0)
+    rim = half_width(shapes) if shapes else 80.0
     columns = max(len(panels) for _, panels in rows)
     width = min(3.1, 12.4 / columns)
     height = len(rows) * (0.45 + width * (z_range[1] - z_range[0]) / (2 * rim)) + 0.35

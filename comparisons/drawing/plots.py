@@ -163,13 +163,14 @@ def legend_on_top(figure, handles, texts):
 def _name_halves(figure, labels, colours):
     """Say which run is left and which right."""
     handles = [plt.Line2D([], [], color=colour, linewidth=5, solid_capstyle="butt") for colour in colours]
-    legend_on_top(figure, handles, [f"{side}: {label}" for side, label in zip(("left", "right"), labels)])
+    names = [f"{side}: {style.literal(label)}" for side, label in zip(("left", "right"), labels)]
+    legend_on_top(figure, handles, names)
 
 
 def _name_lines(figure, labels, colours):
     """Say which line is which run."""
     handles = [plt.Line2D([], [], color=colour, **line) for colour, line in zip(colours, style.LINES)]
-    legend_on_top(figure, handles, labels)
+    legend_on_top(figure, handles, [style.literal(label) for label in labels])
 
 
 def outlines(a, b, times, labels, colours):
@@ -231,7 +232,7 @@ def _budding_times(axes, runs, labels, colours):
     for row, (run, label, colour) in enumerate(zip(runs, labels, colours)):
         time = run.event_time("budding")
         axes.text(0, 0.62 - 0.3 * row, "none" if time is None else f"{time:.4g} µs", size=15, color=colour)
-        axes.text(0, 0.51 - 0.3 * row, label, size=9, color="#444444")
+        axes.text(0, 0.51 - 0.3 * row, style.literal(label), size=9, color="#444444")
 
 
 def _set_time_axis(axes, time_range):

@@ -4,6 +4,8 @@ from collections import namedtuple
 
 from matplotlib.colors import LinearSegmentedColormap
 
+from comparisons.files import printable, shown
+
 #: Colour of each engine (Okabe and Ito, safe for colour-blind readers) on light and on dark ground.
 ENGINE_COLOURS = {"boundary-integral": ("#0072B2", "#4DB2EC"), "phase-field": ("#D55E00", "#FF9248")}
 SECOND_RUN_COLOUR = ("#00805E", "#2CC79B")
@@ -68,11 +70,16 @@ RC = {
 }
 
 
+def literal(text):
+    """A text from outside, as a picture's text: a dollar begins no formula there."""
+    return text.replace("$", r"\$")
+
+
 def labels(a, b):
     """Display names of two endoflow.Run objects: the engines, or engine and directory when both used the same one."""
     names = [ENGINE_NAMES.get(run.engine, run.engine) for run in (a, b)]
     if names[0] == names[1]:
-        names = [f"{name} ({run.directory.resolve().name})" for name, run in zip(names, (a, b))]
+        names = [f"{name} ({printable(shown(run.directory.resolve().name))})" for name, run in zip(names, (a, b))]
     return tuple(names) if names[0] != names[1] else (f"{names[0]} A", f"{names[1]} B")
 
 

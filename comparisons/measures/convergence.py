@@ -23,6 +23,7 @@ import numpy as np
 from comparisons.measures.fitting import extrapolated, fitted_order
 from comparisons.measures.metrics import compare_at, describe, pair
 from endoflow import OutOfRangeError, Run
+from endoflow.run_state import unfinished
 
 SCHEMA_VERSION = 1
 
@@ -162,8 +163,8 @@ def warnings(sharp, diffuse, records, times):
     """Sentences a reader should see first."""
     found = []
     for name, run in [("the sharp run", sharp), *((f"ε = {one.epsilon:g} nm", one.run) for one in diffuse)]:
-        if run.record.get("state") != "finished":
-            found.append(f"{name} is {run.record.get('state')}: {run.record.get('exit_reason')}")
+        if left := unfinished(run.directory, run.record):
+            found.append(f"{name} is {left}")
         found += [f"{name}: {alarm}" for alarm in run.alarms]
     for time in times:
         covered = len(at_time(records, time))

@@ -43,6 +43,7 @@ from comparisons.measures.distances import curve_distance
 from comparisons.measures.finding import finding
 from comparisons.measures.interpolation import InterpolationError
 from endoflow.curves import area_from_axis, resample
+from endoflow.run_state import unfinished
 
 SCHEMA_VERSION = 1
 
@@ -251,8 +252,8 @@ def warnings(a, b, differences):
         if d["key"] != "time.end" and d["key"].split(".")[0] not in ("case", "output")
     ]
     for letter, run in zip("AB", (a, b)):
-        if run.record.get("state") != "finished":
-            found.append(f"run {letter} ({run.directory}) did not finish: its state is {run.record.get('state')!r}")
+        if left := unfinished(run.directory, run.record):
+            found.append(f"run {letter} ({run.directory}) did not finish: {left}")
         found += [f"run {letter} ({run.directory}): {alarm}" for alarm in run.alarms]
     return found
 

@@ -1,6 +1,7 @@
 """report.html of a single run."""
 
 from comparisons.drawing import style
+from comparisons.measures.along import Along
 from comparisons.measures.basis import basis
 from comparisons.measures.certificate import in_words
 from comparisons.measures.metrics import flat_parameters
@@ -8,6 +9,7 @@ from comparisons.page import report
 from comparisons.page.numbers import code, count_or_figures, escaped, figures, flattened, prose, quantity, setting
 from comparisons.page.study_report import page, parameters_table
 from endoflow.history import unit_of
+from endoflow.run_state import unfinished
 
 
 def run_html(run, drawn, directory):
@@ -25,8 +27,8 @@ def run_html(run, drawn, directory):
     ]
     name = run.parameters.get("case", {}).get("name", "run")
     found = [f"accuracy alarm: {alarm}" for alarm in run.alarms]
-    if run.record.get("state") != "finished":
-        found.append(f"the run did not finish: its state is {run.record.get('state')!r}")
+    if left := unfinished(run.directory, run.record):
+        found.append(f"the run did not finish: {left}")
     subtitle = f"Case “{name}” · {style.ENGINE_NAMES.get(run.engine, run.engine)} · {extent(run)}"
     return page("endoflow report", f"Run “{name}”", subtitle, found, cards(run), sections, run.directory)
 
@@ -34,14 +36,15 @@ def run_html(run, drawn, directory):
 def extent(run):
     """How far the run goes, in words."""
     if run.engine == "statics":
-        return f"{len(run.shapes)} stationary shape(s)"
+        count = len(run.shapes)
+        return f"{count} stationary shapes, {Along(run).span()}" if count > 1 else "one stationary shape"
     return f"to {run.history['time_us'][-1]:.4g} µs"
 
 
 def cards(run):
     """The key numbers on top: (title, ready HTML value, note)."""
     last = {name: values[-1] for name, values in run.history.items()}
-    found = [("Ended with", escaped(run.record.get("exit_reason") or "–"), extent(run))]
+    found = [("Ended with", escaped(run.record.get("exit_reason") or run.record.get("state") or "–"), extent(run))]
     if run.engine != "statics":
         found.append(("Budding", quantity(run.event_time("budding"), 4, "µs"), "neck radius below 5 nm"))
     for column in ("neck_radius_nm", "bud_diameter_nm", "bud_height_nm"):

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from comparisons import ROOT
-from comparisons.errors import RUN_FAILED, StudyError, last_line
+from comparisons.errors import RUN_FAILED, StudyError
 from comparisons.studies.study import program
+from endoflow.errors import last_word
 
 
 @dataclass(frozen=True)
@@ -30,9 +31,9 @@ def followed(case, key, end, settings):
             words += ["--set", f"{name}={value}"]
         done = subprocess.run([*words, "--continue-in", f"{key}={end:g}"], capture_output=True, text=True, check=False)
         if not (directory / "run.json").exists() or done.returncode not in (0, RUN_FAILED):
-            raise StudyError(last_line(done.stderr), RUN_FAILED)
+            raise StudyError(last_word(done.stderr), RUN_FAILED)
         run = endoflow.load(directory)
     notes = run.record["notes"].get("branch")
     if notes is None:
-        raise StudyError(last_line(done.stderr), RUN_FAILED)
+        raise StudyError(last_word(done.stderr), RUN_FAILED)
     return Branch(dict(run.history), [fold["value"] for fold in notes["folds"]], notes["ended_because"])

@@ -9,11 +9,14 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from comparisons.errors import last_line
 from comparisons.studies.members import read_record
+from endoflow.errors import last_word
 
 #: Seconds between two looks at the running members.
 POLL_INTERVAL = 0.1
+
+#: File in a member's directory: all that a run wrote to stderr which failed, the launcher's words included.
+ERRORS = "errors.txt"
 
 #: Variables that limit a process's threads.
 THREAD_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
@@ -125,6 +128,8 @@ def run_all(tasks, parallel, environment, progress, interruption):
 def _started(task, environment):
     """Start a member in a session of its own, so that the terminal's Ctrl-C reaches it only through us."""
     errors = tempfile.TemporaryFile()
+    with contextlib.suppress(OSError):
+        (task.member.directory / ERRORS).unlink(missing_ok=True)
     process = subprocess.Popen(
         task.command,
         stdin=subprocess.DEVNULL,
@@ -139,7 +144,7 @@ def _started(task, environment):
 def _outcome(one, interrupted):
     """How an ended member ended."""
     one.errors.seek(0)
-    message = last_line(one.errors.read().decode("utf-8", "replace"))
+    text = one.errors.read().decode("utf-8", "replace")
     one.errors.close()
     code = one.process.returncode
     record = read_record(one.task.member.directory) or {}
@@ -147,9 +152,18 @@ def _outcome(one, interrupted):
         return Outcome(FINISHED)
     if interrupted and (record.get("state") == "interrupted" or code in (-signal.SIGINT, -signal.SIGKILL, 130)):
         return Outcome(INTERRUPTED)
+    if text:
+        _keep_errors(one.task.member.directory, text)
     if code < 0:
         return Outcome(FAILED, f"ended by {signal.Signals(-code).name}; run the study again to continue it")
-    return Outcome(FAILED, message or f"ended with exit code {code} and without a finished run.json")
+    return Outcome(FAILED, last_word(text) or f"ended with exit code {code} and without a finished run.json")
+
+
+def _keep_errors(directory, text):
+    """Leave what a failed run wrote to stderr in its directory (Path), which need not be there yet."""
+    with contextlib.suppress(OSError):  # the failure itself is reported
+        directory.mkdir(parents=True, exist_ok=True)
+        (directory / ERRORS).write_text(text, encoding="utf-8")
 
 
 def _signal_all(running, number):

@@ -6,9 +6,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.parse import quote
 
-from comparisons.errors import StudyError, last_line
+from comparisons.errors import StudyError
 from comparisons.measures.metrics import flat_parameters
+from endoflow.errors import last_word
 from endoflow.run_directory import damage_of
+from endoflow.run_state import KILLED, current_record
 
 ENGINES = ("boundary-integral", "phase-field")
 
@@ -53,7 +55,7 @@ def resolved_parameters(program, case, settings):
     except OSError as error:
         raise StudyError(f"{program}: {error.strerror}; build or install endoflow", 4) from None
     if check.returncode:
-        raise StudyError(last_line(check.stderr) or f"{program} check failed", check.returncode)
+        raise StudyError(last_word(check.stderr) or f"{program} check failed", check.returncode)
     return json.loads(check.stdout)
 
 
@@ -61,7 +63,7 @@ def parameter_units(program):
     """{"section.key": unit} of every parameter that has one, as `endoflow params` knows them."""
     listed = subprocess.run([str(program), "params", "--json"], capture_output=True, text=True, check=False)
     if listed.returncode:
-        raise StudyError(last_line(listed.stderr) or f"{program} params failed", listed.returncode)
+        raise StudyError(last_word(listed.stderr) or f"{program} params failed", listed.returncode)
     return {row["name"]: row["unit"] for row in json.loads(listed.stdout) if row["unit"]}
 
 
@@ -77,12 +79,12 @@ def directory_name(values):
 
 
 def read_record(directory):
-    """run.json of a directory as a dict, or None when there is no whole one."""
+    """run.json of a directory as a dict, `state` as endoflow.load has it, or None when there is no whole one."""
     try:
-        record = json.loads((directory / "run.json").read_text(encoding="utf-8"))
+        record = current_record(directory)
     except (OSError, ValueError):
         return None
-    whole = isinstance(record, dict) and isinstance(record.get("parameters"), dict) and damage_of(record) is None
+    whole = isinstance(record.get("parameters"), dict) and damage_of(record) is None
     return record if whole else None
 
 
@@ -103,7 +105,7 @@ def work_left(member):
         return FRESH
     if not differing and record.get("state") == "finished":
         return FINISHED
-    unfinished = record.get("state") in ("interrupted", "running") or record.get("exit_reason") == "done"
+    unfinished = record.get("state") in ("interrupted", "running", KILLED) or record.get("exit_reason") == "done"
     return CONTINUE if can_continue and unfinished else FRESH
 
 

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 from comparisons.errors import BAD_INPUT, IO_FAILURE, StudyError
+from comparisons.files import shown
 
 
 def program():
@@ -71,5 +72,5 @@ def report_failures(command, outcomes):
     """One line on stderr for each failed member; returns their number."""
     failed = {name: outcome.message for name, outcome in outcomes.items() if outcome.state == "failed"}
     for name, message in failed.items():
-        print(f"endoflow {command}: {name}: {message}", file=sys.stderr)
+        print(f"endoflow {command}: {name}: {shown(message)}", file=sys.stderr)
     return len(failed)

@@ -101,7 +101,7 @@ def final_values(path, end):
 
 def write_table(path, rows):
     """Write rows, list of {column: value}, as CSV."""
-    with named(path), open(path, "w", newline="", encoding="utf-8") as file:
+    with named(path), open(path, "w", newline="", encoding="utf-8", errors="surrogateescape") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(rows[0])
         writer.writerows([cell(value) for value in entry.values()] for entry in rows)

@@ -88,7 +88,7 @@ def sweep(
         arguments += [] if jobs is None else ["--jobs", str(jobs)]
         arguments += ["--processes", str(processes)]
         call(arguments)
-    with open(directory / "sweep.csv", newline="", encoding="utf-8") as table:
+    with open(directory / "sweep.csv", newline="", encoding="utf-8", errors="surrogateescape") as table:
         return [{key: _value(cell) for key, cell in row.items()} for row in csv.DictReader(table)]
 
 

@@ -67,8 +67,11 @@ def interpolated(times: Array, values: Array, at: float | Array) -> Any:
 
     Cubic in each step, with slopes by which it overshoots nowhere: weighted harmonic means of the secants' (Fritsch &
     Butland, SIAM J. Sci. Stat. Comput. 5, 300 (1984)). Third order in the step, second beside extrema, gaps and
-    the ends.
+    the ends. A single row holds at its own time.
     """
+    linear = np.interp(at, times, values, left=np.nan, right=np.nan)  # knows the rows themselves and the gaps
+    if len(times) < 2:
+        return linear
     steps = np.diff(times)
     with np.errstate(divide="ignore", invalid="ignore"):
         secants = np.diff(values) / steps
@@ -78,7 +81,6 @@ def interpolated(times: Array, values: Array, at: float | Array) -> Any:
     inner = np.where(np.isfinite(before), np.where(np.isfinite(after), inner, before), after)
     slopes = np.concatenate([secants[:1], inner, secants[-1:]])
 
-    linear = np.interp(at, times, values, left=np.nan, right=np.nan)  # knows the rows themselves and the gaps
     cubic = hermite(times, values, slopes, np.asarray(at))
     return np.where(np.isin(at, times) | np.isnan(linear), linear, cubic)
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Callable, Sequence
 from urllib.parse import unquote, urlsplit
 
-from .errors import EndoflowError
+from .errors import EndoflowError, last_word
 
 #: Seconds between two looks at a running program.
 POLL_INTERVAL = 0.1
@@ -65,8 +65,9 @@ def program() -> Path:
     """
     chosen = os.environ.get("ENDOFLOW")
     if chosen:
-        if not os.access(chosen, os.X_OK) or Path(chosen).is_dir():
-            raise FileError(f"ENDOFLOW={chosen}: no such program; give the path of the program endoflow")
+        problem = unusable(Path(chosen))
+        if problem:
+            raise FileError(f"ENDOFLOW={chosen}: {problem}; give the path of the program endoflow")
         return Path(chosen)
     in_path = shutil.which("endoflow")
     above = Path(__file__).resolve().parents
@@ -77,6 +78,15 @@ def program() -> Path:
         if os.access(candidate, os.X_OK):
             return candidate
     raise FileError(HOW_TO_GET_IT)
+
+
+def unusable(path: Path) -> str:
+    """Why a path is no program, in words; "" for one that is."""
+    if path.is_dir():
+        return "is a directory"
+    if not path.exists():
+        return "no such program"
+    return "" if os.access(path, os.X_OK) else "is not executable (chmod +x)"
 
 
 def _pip_source() -> list[Path]:
@@ -98,9 +108,12 @@ def call(arguments: Sequence[str], watch: Callable[[], None] | None = None, laun
     command = [*launcher, str(program()), *arguments]
     with tempfile.TemporaryFile() as errors:
         # In a session of its own: Ctrl-C reaches it through us alone.
-        process = subprocess.Popen(
-            command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors, start_new_session=True
-        )
+        try:
+            process = subprocess.Popen(
+                command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors, start_new_session=True
+            )
+        except OSError as error:
+            raise FileError(f"{command[0]}: cannot be started: {error.strerror}") from None
         try:
             while True:
                 with contextlib.suppress(subprocess.TimeoutExpired):
@@ -130,7 +143,6 @@ def _stop(process: subprocess.Popen[bytes]) -> None:
 
 
 def _error(text: str, code: int) -> ProgramError:
-    """The exception of an exit code; its message is the program's last line, without its name in front."""
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
-    message = lines[-1].removeprefix("endoflow: ") if lines else f"endoflow ended with exit code {code}"
+    """The exception of an exit code; its message is the program's last word."""
+    message = last_word(text) or f"endoflow ended with exit code {code}"
     return ERRORS[code](message) if code in ERRORS else ProgramError(message, code)

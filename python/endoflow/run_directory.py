@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
@@ -14,6 +13,8 @@ from .arrays import Array
 from .errors import RERUN, OutOfRangeError, RunDirectoryError
 from .fields import Fields, field_files, read_fields
 from .history import interpolated, read_history, unit_of
+from .results import what_else
+from .run_state import current_record
 from .shapes import Shape, between, read_shapes
 
 if TYPE_CHECKING:
@@ -24,7 +25,8 @@ if TYPE_CHECKING:
 class Run:
     """One run. Units: nm, µs, pN.
 
-    record:     run.json as a dict (engine, versions, host, wall times, events, …)
+    record:     run.json as a dict (engine, versions, host, wall times, events, …); its `state` is "killed" where the file says
+                "running" and nobody runs
     parameters: resolved parameters by section, parameters["molecules"]["patch_radius"]
     history:    {column: array (steps,)}, nan where a cell is empty; history_units: {column: unit}
     shapes:     list of Shape in order of time
@@ -122,7 +124,7 @@ def load(directory: Union[str, Path]) -> Run:
     directory = Path(directory)
     if not directory.is_dir():
         raise RunDirectoryError(directory, "no such directory", "give the directory that `endoflow run -o` wrote")
-    record = _read_record(directory / "run.json")
+    record = _read_record(directory)
     return Run(
         directory=directory,
         record=record,
@@ -132,16 +134,15 @@ def load(directory: Union[str, Path]) -> Run:
     )
 
 
-def _read_record(path: Path) -> dict[str, Any]:
+def _read_record(directory: Path) -> dict[str, Any]:
     """run.json as a dict with at least `engine` and `parameters`."""
+    path = directory / "run.json"
     try:
-        record = json.loads(path.read_text(encoding="utf-8"))
+        record = current_record(directory)
     except FileNotFoundError:
-        raise RunDirectoryError(path, "the file is missing", "is this a directory of `endoflow run`?") from None
+        raise RunDirectoryError(path, "the file is missing", what_else(directory)) from None
     except (OSError, ValueError) as error:
         raise RunDirectoryError(path, f"cannot be read as JSON ({error})", RERUN) from None
-    if not isinstance(record, dict):
-        raise RunDirectoryError(path, "is not a JSON object", RERUN)
     for key, kind in (("engine", str), ("parameters", dict), ("provenance", dict), ("events", dict)):
         if not isinstance(record.get(key), kind):
             raise RunDirectoryError(path, f"has no `{key}`", "is this a directory of `endoflow run`?")

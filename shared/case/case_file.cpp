@@ -114,8 +114,11 @@ ParameterValue override_value(const std::string& text, const std::string& name, 
     }
     double number = 0;
     const char *begin = text.c_str() + (text.starts_with('+') ? 1 : 0), *end = text.c_str() + text.size();
-    if (const auto [rest, error] = std::from_chars(begin, end, number); error == std::errc() && rest == end)
-        return number;
+    const auto [rest, error] = std::from_chars(begin, end, number);
+    if (error == std::errc() && rest == end) return number;
+    if (error == std::errc::result_out_of_range && rest == end)
+        throw InputError(fmt::format("{}: {} is out of the range of numbers; {} must be {}", where, text, name,
+                                     describe_allowed(*find_parameter(name))));
     return text;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,8 +17,8 @@ struct HistoryRow {
     Observables membrane;
     double area_strain_max = 0;
     double wall_s = 0;
-    std::vector<double> extra;  ///< the engine's own columns, in the order it named them
-    bool settling = false;      ///< the mesh has just changed: what that left relaxes, and rates are those of that
+    std::vector<std::optional<double>> extra;  ///< the engine's own columns, in the order it named them
+    bool settling = false;  ///< the mesh has just changed: what that left relaxes, and rates are those of that
 };
 
 /// A column that the histories of all engines have. Its name ends in its unit.
@@ -40,7 +41,7 @@ template <class Step>
 struct OwnColumn {
     std::string name;  // ends in its unit
     std::string meaning;
-    double (*value)(const Step&);
+    std::function<std::optional<double>(const Step&)> value;  // empty where there is none (no walls)
 };
 
 /// What a reader is told of a column.
@@ -58,8 +59,9 @@ template <class Column>
 
 /// HistoryRow::extra of a step.
 template <class Step>
-[[nodiscard]] std::vector<double> own_values(const std::vector<OwnColumn<Step>>& columns, const Step& step) {
-    std::vector<double> values;
+[[nodiscard]] std::vector<std::optional<double>> own_values(const std::vector<OwnColumn<Step>>& columns,
+                                                            const Step& step) {
+    std::vector<std::optional<double>> values;
     for (const OwnColumn<Step>& column : columns) values.push_back(column.value(step));
     return values;
 }

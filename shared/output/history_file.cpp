@@ -80,7 +80,7 @@ std::string history_line(const HistoryRow& row, std::size_t own_columns) {
         if (!line.empty()) line += ",";
         if (const auto value = column.value(row)) line += number(*value, column.name);
     }
-    for (const double value : row.extra) line += "," + number(value, "a column of history.csv");
+    for (const auto& value : row.extra) line += value ? "," + number(*value, "a column of history.csv") : ",";
     return line;
 }
 

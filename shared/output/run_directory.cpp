@@ -57,6 +57,11 @@ void RunDirectory::prepare_fresh() const {
     make_directory(checkpoint());
 }
 
+bool RunDirectory::holds_checkpoint() const {
+    std::error_code ignored;
+    return fs::exists(checkpoint() / "state.h5", ignored) || fs::exists(checkpoint() / "state.previous.h5", ignored);
+}
+
 void RunDirectory::require_run() const {
     std::error_code ignored;
     if (!fs::exists(record(), ignored))

@@ -30,6 +30,8 @@ struct RunDirectory {
     void make_root() const;
     /// Makes checkpoint/; moves a run that is already there, and what was drawn from it, to earlier/N/. Throws IoError.
     void prepare_fresh() const;
+    /// Whether a checkpoint is there to continue from.
+    [[nodiscard]] bool holds_checkpoint() const;
     /// Throws IoError unless root holds a run that can be continued.
     void require_run() const;
 };

@@ -8,7 +8,9 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 #include "shared/output/provenance.h"
 #include "shared/support/error.h"
@@ -19,6 +21,19 @@ namespace {
 
 std::string on_this_host() {
     return fmt::format(" on {} since ", host_name());
+}
+
+/// Tries to get the lock. Who asks whether it is free has it for an instant: that is waited for.
+bool try_lock(int descriptor) {
+    constexpr int tries = 5;
+    constexpr auto pause = std::chrono::milliseconds(5);
+    for (int i = 0; i < tries; ++i) {
+        if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return true;
+        if (errno != EWOULDBLOCK) return false;
+        std::this_thread::sleep_for(pause);
+    }
+    errno = EWOULDBLOCK;
+    return false;
 }
 
 /// What the lock file says of its last holder; empty when that ended in order.
@@ -49,7 +64,7 @@ RunLock::RunLock(const RunDirectory& directory) : file_(directory.lock()), descr
     do {
         if (descriptor_ >= 0) ::close(descriptor_);
         descriptor_ = open_lock(file_);
-        if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) continue;
+        if (try_lock(descriptor_)) continue;
         if (errno != EWOULDBLOCK) {
             doubt_ = fmt::format("{}: the file system keeps no locks ({}); see to it that no other run writes there",
                                  directory.root.string(), std::strerror(errno));
@@ -76,6 +91,24 @@ RunLock::~RunLock() {
     // Before the lock ends: who gets it next must not lose the file it has just locked.
     ::unlink(file_.c_str());
     ::close(descriptor_);
+}
+
+bool lock_is_free(const RunDirectory& directory) {
+    const int descriptor = ::open(directory.lock().c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return errno == ENOENT;
+    const std::string last = holder(descriptor);
+    const bool seen_here = last.empty() || last.find(on_this_host()) != std::string::npos;
+    const bool free = seen_here && ::flock(descriptor, LOCK_SH | LOCK_NB) == 0;
+    ::close(descriptor);
+    return free;
+}
+
+RunRecord read_current_record(const RunDirectory& directory) {
+    const bool free = lock_is_free(directory);
+    RunRecord record = read_record(directory);
+    // Free before and after: who wrote "running" did not begin or end meanwhile.
+    if (record.value("state", "") == "running" && free && lock_is_free(directory)) record["state"] = "killed";
+    return record;
 }
 
 }  // namespace endoflow

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "shared/output/run_directory.h"
+#include "shared/output/run_record.h"
 
 namespace endoflow {
 
@@ -25,5 +26,13 @@ class RunLock {
     int descriptor_;
     std::string doubt_;
 };
+
+/// Whether it is certain that no process holds a run's directory. It is not where the file system keeps no locks, and
+/// where the lock was left on another host, whose locks need not be seen here.
+[[nodiscard]] bool lock_is_free(const RunDirectory& directory);
+
+/// run.json of a run with the state "killed" where it says "running" and nobody runs (python/endoflow/run_state.py for
+/// Python). Throws IoError.
+[[nodiscard]] RunRecord read_current_record(const RunDirectory& directory);
 
 }  // namespace endoflow

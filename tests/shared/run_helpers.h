@@ -16,7 +16,7 @@ inline std::string content(const std::filesystem::path& file) {
     return read_file(file, 1 << 20);
 }
 
-inline HistoryRow row_at(double time, std::vector<double> extra = {7}) {
+inline HistoryRow row_at(double time, std::vector<std::optional<double>> extra = {7}) {
     HistoryRow row;
     row.time_us = time;
     row.extra = std::move(extra);
