@@ -6,6 +6,7 @@
 #   make build      build/endoflow and its engines
 #   make install    DESTDIR and prefix as usual          make package   a Debian package in build/
 #   make bench      what the engines cost here: out/bench/bench.md   (BENCH=--quick: minutes instead of tens of minutes)
+#   make web        the sharp engine as a page that needs no installation: build/web/index.html
 #   make docs       docs/ as HTML in build/docs      make docs-check  run every command of README and docs/
 #   make format     clang-format on all sources          make lint      clang-format, clang-tidy and pyflakes, check only
 # UNITY=OFF compiles file by file: longer from nothing, shorter after an edit; the choice where a compiler cache is set.
@@ -41,7 +42,7 @@ ifeq ($(shell id -u),0)
 endif
 
 .PHONY: all demo test build configure packages test-packages run-demo install package bench docs docs-check format
-.PHONY: lint clean
+.PHONY: lint clean web web-page
 
 all: build
 
@@ -69,6 +70,7 @@ demo: packages
 test: test-packages
 	@$(MAKE) --no-print-directory configure
 	cmake --build $(build)
+	@command -v em++ > /dev/null && $(MAKE) --no-print-directory web-page || true
 	@$(MAKE) --no-print-directory lint
 	ctest --test-dir $(build) --parallel $(CORES) --output-on-failure --timeout 3600 $(tests)
 
@@ -82,6 +84,14 @@ install: build
 package: build
 	@tools/install_packages package
 	cd $(build) && cpack
+
+web:
+	@tools/install_packages base web
+	@$(MAKE) --no-print-directory web-page
+
+web-page:
+	tools/web/build_engine $(build)/web-engine
+	tools/web/page.py $(build)/web-engine/engine.wasm $(build)/web/index.html
 
 docs: build
 	@tools/install_packages docs
