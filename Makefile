@@ -7,6 +7,7 @@
 #   make install    DESTDIR and prefix as usual          make package   a Debian package in build/
 #   make hero       the README's picture and film, from what make demo made
 #   make bench      what the engines cost here: out/bench/bench.md   (BENCH=--quick: minutes instead of tens of minutes)
+#   make web        the sharp engine as a page that needs no installation: build/web/index.html
 #   make docs       docs/ as HTML in build/docs      make docs-check  run every command of README and docs/
 #   make format     clang-format on all sources          make lint      clang-format, clang-tidy and pyflakes, check only
 #   make portability DISTRIBUTION=trixie [TARGET=demo]   the committed tree in a bare Debian: log in out/portability
@@ -47,7 +48,7 @@ ifeq ($(shell id -u),0)
 endif
 
 .PHONY: all demo announcement hero test build configure packages test-packages run-demo install package bench docs docs-check format
-.PHONY: lint portability clean
+.PHONY: lint portability web web-page clean
 
 all: build
 
@@ -86,6 +87,7 @@ hero: out/demo/hero.webp
 test: test-packages
 	@$(MAKE) --no-print-directory configure TESTS=ON
 	cmake --build $(build)
+	@if command -v em++ > /dev/null; then $(MAKE) --no-print-directory web-page; fi
 	@$(MAKE) --no-print-directory lint
 	ctest --test-dir $(build) --parallel $(CORES) --output-on-failure --timeout 3600 $(tests)
 
@@ -99,6 +101,14 @@ install: build
 package: build
 	@tools/install_packages package
 	cd $(build) && cpack
+
+web:
+	@tools/install_packages base web
+	@$(MAKE) --no-print-directory web-page
+
+web-page:
+	tools/web/build_engine $(build)/web-engine
+	tools/web/page.py $(build)/web-engine/engine.wasm $(build)/web/index.html
 
 docs: build
 	@tools/install_packages docs

@@ -51,12 +51,19 @@ class Laboratory {
     explicit Laboratory(const Parameters& parameters)
         : memory_(parameters, boundary_integral::identity(parameters)), run_(parameters, memory_) {}
 
-    /// Makes steps until `seconds` have passed or the run has ended.
+    /// What there is before the first step.
+    Json opened() {
+        keep_shape();
+        return told();
+    }
+
+    /// Makes steps, one at least, until `seconds` have passed or the run has ended.
     Json advance(double seconds) {
         const double begin = wall_seconds();
         std::string failure;
         try {
-            while (!reason_ && wall_seconds() - begin < seconds) reason_ = run_.step();
+            do reason_ = run_.step();
+            while (!reason_ && wall_seconds() - begin < seconds);
             if (reason_) memory_.finish(*reason_);
         } catch (const Error& error) {
             failure = error.what();
@@ -94,7 +101,7 @@ class Laboratory {
             const HistoryRow& row = memory_.rows()[rows_told_];
             const auto& neck = row.membrane.neck;
             rows.push_back({row.time_us, neck ? Json(neck->radius) : Json(), row.membrane.bud_height,
-                            row.membrane.bending_energy, row.membrane.bud_diameter});
+                            row.membrane.bending_energy});
         }
         Json warnings = Json::array();
         for (; warnings_told_ < memory_.warnings().size(); ++warnings_told_)
@@ -146,7 +153,7 @@ ENDOFLOW_EXPORT(start)()->const char* {
         const Parameters parameters = web::parameters_of(web::text_in);
         web::laboratory.reset();
         web::laboratory = std::make_unique<web::Laboratory>(parameters);
-        return web::laboratory->advance(0);
+        return web::laboratory->opened();
     });
 }
 

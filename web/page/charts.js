@@ -1,0 +1,77 @@
+"use strict";
+// Neck, height and energy against time, each with the kept curve behind it.
+
+/** Round numbers between two, some `count` of them. */
+function ticks(low, high, count) {
+  const rough = (high - low) / count || 1, power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((x) => x * power).find((x) => x >= rough * 0.999);
+  const marks = [];
+  for (let x = Math.ceil(low / step) * step; x <= high * (1 + 1e-9) + 1e-12; x += step) marks.push(Number(x.toPrecision(9)));
+  return marks;
+}
+
+class Chart {
+  /** `column`: of a row {time, neck, height, energy}. */
+  constructor(canvas, column, name, unit) {
+    Object.assign(this, { canvas, column, name, unit });
+  }
+
+  values(rows) { return rows.filter((row) => row[this.column] !== null); }
+
+  draw(rows, kept, time) {
+    const { context, width, height } = fitted(this.canvas);
+    const colours = theme();
+    const own = this.values(rows), old = kept ? this.values(kept) : [];
+    const all = own.concat(old), left = 46, bottom = height - 20, top = 8, right = width - 8;
+    const end = Math.max(rows.at(-1)?.time ?? 0, kept?.at(-1)?.time ?? 0) || 1;
+    const most = all.reduce((value, row) => Math.max(value, row[this.column]), 0) || 1;
+    const x = (t) => left + ((right - left) * t) / end, y = (value) => bottom - ((bottom - top) * value) / (1.06 * most);
+    context.font = "12px system-ui, sans-serif";
+    context.lineWidth = 1;
+    context.strokeStyle = colours.grid;
+    context.fillStyle = colours.muted;
+    context.textAlign = "right";
+    context.textBaseline = "middle";
+    for (const mark of ticks(0, 1.06 * most, 3)) {
+      context.beginPath();
+      context.moveTo(left, y(mark));
+      context.lineTo(right, y(mark));
+      context.stroke();
+      context.fillText(mark >= 1e4 ? `${short(mark / 1e3)}k` : String(mark), left - 6, y(mark));
+    }
+    context.textBaseline = "alphabetic";
+    const marks = ticks(0, end, Math.max(2, Math.floor(width / 90)));
+    marks.forEach((mark, i) => {
+      context.textAlign = i === 0 ? "left" : x(mark) > right - 14 ? "right" : "center";
+      context.fillText(i === marks.length - 1 ? `${mark} µs` : String(mark), x(mark), height - 4);
+    });
+    this.line(context, old, x, y, colours.kept, [5, 4]);
+    this.line(context, own, x, y, colours.accent, []);
+    if (time !== undefined && rows.length) {
+      context.strokeStyle = colours.muted;
+      context.beginPath();
+      context.moveTo(x(time), top);
+      context.lineTo(x(time), bottom);
+      context.stroke();
+    }
+  }
+
+  line(context, rows, x, y, colour, dash) {
+    context.setLineDash(dash);
+    context.strokeStyle = colour;
+    context.lineWidth = 2;
+    context.beginPath();
+    for (const row of rows) context.lineTo(x(row.time), y(row[this.column]));
+    context.stroke();
+    context.setLineDash([]);
+  }
+
+  /** What a screen reader is told. */
+  describe(rows) {
+    const own = this.values(rows);
+    const words = own.length
+      ? `from ${short(own[0][this.column])} at ${short(own[0].time)} µs to ${short(own.at(-1)[this.column])} at ${short(own.at(-1).time)} µs`
+      : "no values";
+    this.canvas.setAttribute("aria-label", `${this.name} in ${this.unit} against time: ${words}`);
+  }
+}

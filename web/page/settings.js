@@ -1,0 +1,100 @@
+"use strict";
+// Settings: what differs from the defaults, as {"section.key": value}; case files and links are made from them.
+
+/** The parameters that matter, with the range of their slider and a typical value with its source in words. */
+const SLIDERS = [
+  { group: "The coat", key: "molecules.patch_radius", label: "Coat radius", unit: "nm", from: 12, to: 60, step: 1,
+    typical: "a clathrin coat has 30 to 60 nm" },
+  { group: "The coat", key: "membrane.spontaneous_curvature", label: "Preferred radius 1/H₀", unit: "nm", from: 8, to: 60, step: 0.1,
+    shown: (value) => 1 / value, meant: (shown) => 1 / shown, typical: "the paper: 14.1 nm; small is strongly curved" },
+  { group: "The coat", key: "membrane.bending_stiffness_coated", label: "Stiffness, coated", unit: "pN nm", from: 100, to: 4000, log: true,
+    typical: "clathrin: 10 to 15 times the bare membrane" },
+  { group: "The coat", key: "molecules.edge_speed", label: "Coat growth", unit: "nm/µs", from: 0, to: 10, step: 0.1,
+    implies: (value) => (value > 0 ? { "molecules.exchange": "edge" } : { "molecules.exchange": undefined }),
+    typical: "0 is a ready-made coat; cells: 10⁻⁶ nm/µs" },
+  { group: "The membrane", key: "membrane.bending_stiffness", label: "Stiffness, bare", unit: "pN nm", from: 20, to: 1000, log: true,
+    typical: "lipid membranes: 50 to 200 pN nm" },
+  { group: "The membrane", key: "membrane.rim_tension", label: "Tension", unit: "pN/nm", from: 0, to: 2, step: 0.01,
+    typical: "cells: 0.003 to 0.3 pN/nm" },
+  { group: "The fluids", key: "fluid.viscosity_extracellular", label: "Viscosity outside", unit: "mPa s", from: 0.1, to: 1000, log: true,
+    shown: (value) => value * 1e3, meant: (shown) => shown / 1e3, typical: "water: 1 mPa s" },
+  { group: "The fluids", key: "fluid.viscosity_intracellular", label: "Viscosity inside", unit: "mPa s", from: 0.1, to: 1000, log: true,
+    shown: (value) => value * 1e3, meant: (shown) => shown / 1e3, typical: "cytosol: 2 to 10 mPa s and more" },
+  { group: "Forces", key: "fluid.pressure_difference", label: "Pressure, outside − inside", unit: "kPa", from: -20, to: 20, step: 0.5,
+    shown: (value) => value * 1e3, meant: (shown) => shown / 1e3, typical: "turgor of yeast: −200 to −1000 kPa" },
+  { group: "Forces", key: "membrane.pole_force", label: "Pole force", unit: "pN", from: -200, to: 500, step: 10,
+    typical: "an actin filament: 1 to 5 pN" },
+  { group: "The run", key: "time.end", label: "Ends at", unit: "µs", from: 0.05, to: 100, log: true,
+    typical: "the standard coat buds after 0.83 µs" },
+];
+
+class Settings {
+  /** `parameters`: the engine's table. */
+  constructor(parameters) {
+    this.table = new Map(parameters.map((row) => [row.name, row]));
+    this.values = {};
+  }
+
+  get(name) { return this.values[name] ?? this.table.get(name).default; }
+
+  /** A value that is the default is no setting. */
+  set(name, value) {
+    if (value === undefined || value === this.table.get(name)?.default) delete this.values[name];
+    else this.values[name] = value;
+  }
+
+  /** From all parameters of a case as the engine reads it: {section: {key: value}}. */
+  take(sections) {
+    this.values = {};
+    for (const row of this.table.values()) {
+      const value = row.name.split(".").reduce((node, part) => node?.[part], sections);
+      if (value !== undefined) this.set(row.name, value);
+    }
+  }
+
+  toToml() {
+    const sections = new Map();
+    for (const [name, value] of Object.entries(this.values)) {
+      const dot = name.lastIndexOf("."), section = name.slice(0, dot);
+      if (!sections.has(section)) sections.set(section, []);
+      sections.get(section).push(`${name.slice(dot + 1)} = ${tomlValue(value, this.table.get(name)?.default)}`);
+    }
+    return [...sections].map(([section, lines]) => `[${section}]\n${lines.join("\n")}\n`).join("\n");
+  }
+
+  toHash() {
+    return Object.entries(this.values).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
+  }
+
+  /** From a link's hash; values are what their parameter's default is. Says what it does not know. */
+  fromHash(hash) {
+    this.values = {};
+    const unknown = [];
+    for (const part of hash.replace(/^#/, "").split("&").filter(Boolean)) {
+      const equals = part.indexOf("="), name = part.slice(0, equals);
+      if (equals < 0 || !this.table.has(name)) unknown.push(part);
+      else this.set(name, typedValue(decoded(part.slice(equals + 1)), this.table.get(name).default));
+    }
+    return unknown;
+  }
+}
+
+function decoded(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return text;
+  }
+}
+
+/** What a person typed, as a value of the parameter's kind where it can be one; else the text, which the engine refuses. */
+function typedValue(text, kin) {
+  if (typeof kin === "boolean") return text === "true" ? true : text === "false" ? false : text;
+  if (typeof kin === "number" && text.trim() !== "" && Number.isFinite(Number(text))) return Number(text);
+  return text;
+}
+
+function tomlValue(value, kin) {
+  if (typeof value === "number") return Number.isInteger(kin) || !Number.isInteger(value) ? String(value) : value.toFixed(0);
+  return typeof value === "string" ? JSON.stringify(value) : String(value);
+}
