@@ -23,6 +23,15 @@
 
 namespace endoflow {
 
+/// What handlers put into the record.
+enum class RecordBlank { reason, ended, time, accepted, none };
+
+/// run.json in pieces; after each comes what fills the blank.
+struct RecordPiece {
+    std::string text;
+    RecordBlank blank;
+};
+
 namespace {
 
 /// A text in memory that is there already.
@@ -104,31 +113,22 @@ constexpr std::array<std::pair<int, const char*>, 8> deadly_signals{
      {SIGXCPU, "the limit to the processor's time was reached (SIGXCPU)"},
      {SIGQUIT, "somebody ended the process (SIGQUIT)"}}};
 
-/// What handlers put into the record.
-enum class Blank { reason, ended, time, accepted, none };
-
-/// run.json in pieces; after each comes what fills the blank.
-struct Piece {
-    std::string text;
-    Blank blank;
-};
-
-std::vector<Piece> in_pieces(RunRecord record) {
-    constexpr std::array<std::pair<const char*, Blank>, 4> blanks{{{"\"@exit_reason\"", Blank::reason},
-                                                                   {"\"@ended\"", Blank::ended},
-                                                                   {"\"@time_us\"", Blank::time},
-                                                                   {"\"@accepted\"", Blank::accepted}}};
+std::vector<RecordPiece> in_pieces(RunRecord record) {
+    constexpr std::array<std::pair<const char*, RecordBlank>, 4> blanks{{{"\"@exit_reason\"", RecordBlank::reason},
+                                                                         {"\"@ended\"", RecordBlank::ended},
+                                                                         {"\"@time_us\"", RecordBlank::time},
+                                                                         {"\"@accepted\"", RecordBlank::accepted}}};
     record["state"] = "failed";
     record["exit_reason"] = "@exit_reason";
     record["ended"] = "@ended";
     record["time_us"] = "@time_us";
     record["steps"]["accepted"] = "@accepted";
     const std::string text = record.dump(2) + "\n";
-    std::vector<Piece> pieces;
+    std::vector<RecordPiece> pieces;
     std::size_t begin = 0;
     while (begin < text.size()) {
         std::size_t next = text.size(), length = 0;
-        Blank blank = Blank::none;
+        RecordBlank blank = RecordBlank::none;
         for (const auto& [mark, which] : blanks)
             if (const auto place = text.find(mark, begin); place < next) {
                 next = place;
@@ -150,7 +150,7 @@ struct SuddenEnd::Implementation {
     pid_t process = ::getpid();
     long clock_ahead = local_clock_ahead();
     bool on_terminal = ::isatty(STDOUT_FILENO) == 1;
-    std::array<std::vector<Piece>, 2> texts;  // of run.json: one is made anew while handlers have the other
+    std::array<std::vector<RecordPiece>, 2> texts;  // of run.json: one is made anew while handlers have the other
     std::atomic<unsigned int> text = 0;
     std::atomic<double> time = 0;
     std::atomic<long> accepted = 0;
@@ -197,7 +197,7 @@ struct SuddenEnd::Implementation {
         const int descriptor = ::open(new_record.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
         if (descriptor < 0) return;
         bool complete = true;
-        for (const Piece& piece : texts.at(text.load())) {
+        for (const RecordPiece& piece : texts.at(text.load())) {
             Line line;
             fill(line, piece.blank, message);
             complete = complete && write_all(descriptor, piece.text) && write_all(descriptor, line.text());
@@ -207,23 +207,23 @@ struct SuddenEnd::Implementation {
         if (!complete || ::rename(new_record.c_str(), record.c_str()) != 0) ::unlink(new_record.c_str());
     }
 
-    void fill(Line& line, Blank blank, std::string_view message) const noexcept {
+    void fill(Line& line, RecordBlank blank, std::string_view message) const noexcept {
         switch (blank) {
-            case Blank::reason:
+            case RecordBlank::reason:
                 line << "\"" << message << "\"";
                 return;
-            case Blank::ended:
+            case RecordBlank::ended:
                 line << "\"";
                 add_time(line, 0);
                 line << "Z\"";
                 return;
-            case Blank::time:
+            case RecordBlank::time:
                 line << time.load();
                 return;
-            case Blank::accepted:
+            case RecordBlank::accepted:
                 line << accepted.load();
                 return;
-            case Blank::none:
+            case RecordBlank::none:
                 return;
         }
     }
