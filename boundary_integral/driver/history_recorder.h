@@ -48,7 +48,7 @@ class HistoryRecorder {
     [[nodiscard]] double last_row() const { return last_row_; }
 
     /// energy_balance_relative of the last row; 0 while what interpolating left relaxes, and after restore().
-    [[nodiscard]] double energy_balance() const { return energy_balance_; }
+    [[nodiscard]] double last_energy_balance() const { return energy_balance_; }
 
     void save(Checkpoint& checkpoint) const;
     void restore(const Checkpoint& checkpoint);

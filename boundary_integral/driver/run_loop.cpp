@@ -100,8 +100,9 @@ class RunLoop {
     bool needs_more_elements() {
         if (!may_refine_ || at_end()) return false;
         const Index now = dynamics_.space().elements();
-        more_elements_ = elements_for(dynamics_.space(), dynamics_.unpack(integrator_.state()),
-                                      accuracy_of_elements(parameters_), history_.energy_balance(), balance_bound_);
+        more_elements_ =
+            elements_for(dynamics_.space(), dynamics_.unpack(integrator_.state()), accuracy_of_elements(parameters_),
+                         history_.last_energy_balance(), balance_bound_);
         return more_elements_ > now;
     }
 
