@@ -14,7 +14,6 @@ import unittest.mock
 from pathlib import Path
 
 import locations
-import synthetic  # noqa: F401  (beside it lie the modules of the tests)
 from scratch import scratch_directory
 
 from comparisons.commands import guard
