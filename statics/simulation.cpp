@@ -56,6 +56,7 @@ struct ShapeRecord {
     const BranchPoint& point;
     const ShapeIntegrals& integrals;
     Loads loads;
+    std::optional<double> followed;  // value of the parameter of a branch
 
     [[nodiscard]] double apex_height() const { return curve.z.front() - curve.z.back(); }
 };
@@ -83,18 +84,19 @@ const std::vector<OwnColumn<ShapeRecord>>& own_shape_columns() {
         {"potential_pN_nm", "𝒢 = E + E_c + σ A − p V − F z̄", [](const R& r) { return r.integrals.potential(r.loads); }},
         {"line_energy_pN_nm", "E_c of the coat's edge, under energetic coupling",
          [](const R& r) { return r.integrals.edge; }},
-        {followed_value.name, followed_value.meaning, [](const R& r) { return r.point.solution.parameter; }},
+        {followed_value.name, followed_value.meaning, [](const R& r) { return r.followed; }},
     };
     return columns;
 }
 
-/// `named` is the case the user sees, `solved` the one that was computed.
-Json write_state(StateWriter& writer, const Parameters& named, const Parameters& solved, const BranchPoint& point) {
+/// `named` is the case the user sees, `solved` the one that was computed; `followed`: the value on a branch.
+Json write_state(StateWriter& writer, const Parameters& named, const Parameters& solved, const BranchPoint& point,
+                 std::optional<double> followed) {
     const GaussRule rule(Resolution{}.points);
     const MembraneCurve curve = sampled_curve(solved, point.solution, rule, curve_points);
     const ShapeIntegrals integrals = shape_integrals(solved, point.solution, rule);
     const Loads loads = loads_of(solved);
-    const ShapeRecord record{named, curve, point, integrals, loads};
+    const ShapeRecord record{named, curve, point, integrals, loads, followed};
     Json figures = writer.write(curve, BendingModel(solved.membrane), own_values(own_shape_columns(), record));
     figures["apex_height_nm"] = record.apex_height();
     figures["tension_at_axis_pN_per_nm"] = curve.lambda.front();
@@ -133,7 +135,7 @@ ExitReason write_branch(const Parameters& parameters, const Request& request, co
     bool left_the_box = false;
     const auto visit = [&](const BranchPoint& point) {
         const double value = point.solution.parameter;
-        write_state(writer, named(value), solved(value).parameters, point);
+        write_state(writer, named(value), solved(value).parameters, point, value);
         left_the_box = is_load(key) && reaches_top_or_bottom(parameters, point.solution);
         return interruption_signal() == 0 && !left_the_box;
     };
@@ -232,7 +234,7 @@ ExitReason simulate(const Parameters& parameters, const Request& request, RunOut
                         "exist in between, and this one is stable only if that number is even",
                         state.point.folds_before));
     if (request.continuation) return write_branch(parameters, request, state, writer);
-    const Json figures = write_state(writer, parameters, solved, state.point);
+    const Json figures = write_state(writer, parameters, solved, state.point, std::nullopt);
     output.note("stationary_state", figures);
     warn_about_walls(parameters, figures["apex_height_nm"].get<double>(), output);
     print_figures(figures);

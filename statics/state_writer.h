@@ -11,7 +11,7 @@ namespace endoflow::statics {
 using Json = nlohmann::ordered_json;
 
 /// The column of history.csv that a branch goes along, of membranes in the box and of vesicles.
-inline const ColumnText followed_value{"followed_value", "of the key the branch goes along"};
+inline const ColumnText followed_value{"followed_value", "of the key the branch goes along; empty without a branch"};
 
 /// Points of the curves in shapes.h5.
 inline constexpr std::size_t curve_points = 1001;

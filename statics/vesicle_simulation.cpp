@@ -17,7 +17,8 @@ namespace {
 struct VesicleRecord {
     const VesicleState& state;
     const MembraneCurve& curve;
-    const BranchPoint& place;  // on a branch
+    const BranchPoint& place;        // on a branch
+    std::optional<double> followed;  // value of the branch's parameter
 
     [[nodiscard]] double reduced_energy() const {
         return state.bending_energy() / (8 * std::numbers::pi * state.membrane.stiffness);
@@ -38,17 +39,17 @@ const std::vector<OwnColumn<VesicleRecord>>& own_vesicle_columns() {
          [](const R& r) { return r.place.arc_length; }},
         {"folds_passed", "folds of the branch before this shape",
          [](const R& r) { return static_cast<double>(r.place.folds_before); }},
-        {followed_value.name, followed_value.meaning, [](const R& r) { return r.place.solution.parameter; }},
+        {followed_value.name, followed_value.meaning, [](const R& r) { return r.followed; }},
     };
     return columns;
 }
 
-/// Writes a vesicle of the case; `place` says where on a branch it lies.
+/// Writes a vesicle of the case; `place` and `followed` say where on a branch it lies.
 Json write_vesicle(StateWriter& writer, const Parameters& parameters, const VesicleState& state,
-                   const BranchPoint& place) {
+                   const BranchPoint& place, std::optional<double> followed) {
     const MembraneCurve curve = sampled_curve(state, GaussRule(Resolution{}.points), parameters.domain.membrane_height,
                                               vesicle_case(parameters).concentration, curve_points);
-    const VesicleRecord record{state, curve, place};
+    const VesicleRecord record{state, curve, place, followed};
     Json figures = writer.write(curve, BendingModel(parameters.membrane), own_values(own_vesicle_columns(), record));
     figures["reduced_volume"] = state.membrane.reduced_volume();
     figures["reduced_energy"] = record.reduced_energy();
@@ -70,7 +71,7 @@ ExitReason write_branch(const Parameters& parameters, const Request& request, co
     const auto membrane = [&](double value) { return vesicle_case(named(value)).membrane; };
     const auto visit = [&](const BranchPoint& point) {
         const double value = point.solution.parameter;
-        write_vesicle(writer, named(value), {membrane(value), point.solution, {}, 0}, point);
+        write_vesicle(writer, named(value), {membrane(value), point.solution, {}, 0}, point, value);
         return interruption_signal() == 0;
     };
     const auto branch = continue_vesicle(state, membrane, begin, continuation.end, visit, request.resolution);
@@ -100,7 +101,8 @@ ExitReason simulate_vesicle(const Parameters& parameters, const Request& request
     output.note("elements", state->solution.elements());
     StateWriter writer(output);
     if (request.continuation) return write_branch(parameters, request, *state, writer);
-    const Json figures = write_vesicle(writer, parameters, *state, {state->solution, state->solution, 0, 0});
+    const Json figures =
+        write_vesicle(writer, parameters, *state, {state->solution, state->solution, 0, 0}, std::nullopt);
     output.note("stationary_state", figures);
     print_figures(figures);
     return ExitReason::done;

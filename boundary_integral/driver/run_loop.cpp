@@ -60,6 +60,8 @@ StartingPoint restored_start(const Checkpoint& checkpoint, Eigen::Index size, co
             Eigen::Map<const Eigen::VectorXd>(unknowns.data(), size)};
 }
 
+}  // namespace
+
 /// A run from its beginning or a checkpoint on, as long as its elements are enough.
 class RunLoop {
   public:
@@ -273,8 +275,6 @@ class RunLoop {
         if (const BoxFlow* box = dynamics_.box()) output_.note("wall_unknowns", box->walls().unknowns());
     }
 };
-
-}  // namespace
 
 class Run::Implementation {
   public:

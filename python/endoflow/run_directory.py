@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
@@ -19,6 +20,10 @@ from .shapes import Shape, between, read_shapes
 
 if TYPE_CHECKING:
     import xarray
+
+
+#: How often the files of a run at work are tried, and seconds between two tries: writing a shape takes milliseconds.
+TRIES, PAUSE = 5, 0.05
 
 
 @dataclass(frozen=True)
@@ -120,18 +125,24 @@ class Run:
 
 
 def load(directory: Union[str, Path]) -> Run:
-    """Read a run directory (path) into a Run. Raises RunDirectoryError when something is missing or damaged."""
+    """Read a run directory (path) into a Run. Raises RunDirectoryError when something is missing or damaged.
+
+    Files of a run at work may be met while a row or a shape is written: they are read again.
+    """
     directory = Path(directory)
     if not directory.is_dir():
         raise RunDirectoryError(directory, "no such directory", "give the directory that `endoflow run -o` wrote")
     record = _read_record(directory)
-    return Run(
-        directory=directory,
-        record=record,
-        parameters=record["parameters"],
-        history=read_history(directory / "history.csv", ("time_us", *record.get("columns", ()))),
-        shapes=read_shapes(directory / "shapes.h5"),
-    )
+    for left in range(TRIES, 0, -1):
+        try:
+            history = read_history(directory / "history.csv", ("time_us", *record.get("columns", ())))
+            shapes = read_shapes(directory / "shapes.h5")
+            break
+        except RunDirectoryError:
+            if record.get("state") != "running" or left == 1:
+                raise
+            time.sleep(PAUSE)
+    return Run(directory=directory, record=record, parameters=record["parameters"], history=history, shapes=shapes)
 
 
 def _read_record(directory: Path) -> dict[str, Any]:

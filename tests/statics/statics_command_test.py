@@ -177,6 +177,17 @@ class Statics(CommandLineTest):
         energies = [float(row["reduced_energy"]) for row in rows]
         self.assertEqual(energies, sorted(energies))
 
+    def test_the_followed_value_stands_in_the_table(self):
+        """A branch in C goes from the case's 0 to what was asked for; its unit stands beside it."""
+        result = self.vesicle("--continue-in", "membrane.spontaneous_curvature=0.002")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        values = [float(row["followed_value"]) for row in self.rows()]
+        self.assertEqual(values[0], 0)
+        self.assertAlmostEqual(values[-1], 0.002, delta=1e-12)  # round-off of the last step
+        self.assertEqual(values, sorted(values))
+        branch = json.loads((self.output / "run.json").read_text())["notes"]["branch"]
+        self.assertEqual((branch["parameter"], branch["unit"]), ("membrane.spontaneous_curvature", "1/nm"))
+
     def test_a_stomatocyte(self):
         result = self.vesicle("--family", "stomatocyte", "--set", "domain.spheroid_polar_axis=11")
         self.assertEqual(result.returncode, 0, result.stderr)
