@@ -70,7 +70,6 @@ demo: packages
 test: test-packages
 	@$(MAKE) --no-print-directory configure
 	cmake --build $(build)
-	@command -v em++ > /dev/null && $(MAKE) --no-print-directory web-page || true
 	@$(MAKE) --no-print-directory lint
 	ctest --test-dir $(build) --parallel $(CORES) --output-on-failure --timeout 3600 $(tests)
 
