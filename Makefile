@@ -87,7 +87,6 @@ hero: out/demo/hero.webp
 test: test-packages
 	@$(MAKE) --no-print-directory configure TESTS=ON
 	cmake --build $(build)
-	@if command -v em++ > /dev/null; then $(MAKE) --no-print-directory web-page; fi
 	@$(MAKE) --no-print-directory lint
 	ctest --test-dir $(build) --parallel $(CORES) --output-on-failure --timeout 3600 $(tests)
 

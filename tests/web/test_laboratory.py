@@ -39,7 +39,7 @@ def native_budding(settings):
 
 
 @unittest.skipUnless(browser.chromium(), "chromium is not installed")
-@unittest.skipUnless(PAGE.exists(), "the page is not built: emscripten is not installed")
+@unittest.skipUnless(PAGE.exists(), "the page is not built: make web")
 class Laboratory(unittest.TestCase):
     """One browser for all; each test opens the page anew."""
 

@@ -69,7 +69,7 @@ class Laboratory {
             failure = error.what();
             memory_.finish_with_error(failure);
         }
-        keep_shape();
+        if (failure.empty()) keep_shape();
         Json said = told();
         if (!failure.empty()) said["error"] = failure;
         if (reason_) said["ended"] = to_string(*reason_);
@@ -169,12 +169,10 @@ ENDOFLOW_EXPORT(shape_size)()->std::size_t {
     return endoflow::web::laboratory->shape().size();
 }
 
-/// history.csv and run.json.
+/// history.csv, empty before the first run.
 ENDOFLOW_EXPORT(history)()->const char* {
-    return endoflow::web::laboratory->memory().history().c_str();
-}
-ENDOFLOW_EXPORT(record)()->const char* {
-    return endoflow::web::answer([] { return endoflow::web::laboratory->memory().record(); });
+    const auto& laboratory = endoflow::web::laboratory;
+    return laboratory ? laboratory->memory().history().c_str() : "";
 }
 
 // NOLINTEND(readability-identifier-naming)

@@ -18,12 +18,13 @@ class Chart {
 
   values(rows) { return rows.filter((row) => row[this.column] !== null); }
 
-  draw(rows, kept, time) {
+  /** `run`, `kept`: {rows, events}. `time`: of the membrane that is shown, when it is not the last one. */
+  draw({ rows, events }, kept, time) {
     const { context, width, height } = fitted(this.canvas);
     const colours = theme();
-    const own = this.values(rows), old = kept ? this.values(kept) : [];
+    const own = this.values(rows), old = kept ? this.values(kept.rows) : [];
     const all = own.concat(old), left = 46, bottom = height - 20, top = 8, right = width - 8;
-    const end = Math.max(rows.at(-1)?.time ?? 0, kept?.at(-1)?.time ?? 0) || 1;
+    const end = Math.max(rows.at(-1)?.time ?? 0, kept?.rows.at(-1)?.time ?? 0) || 1;
     const most = all.reduce((value, row) => Math.max(value, row[this.column]), 0) || 1;
     const x = (t) => left + ((right - left) * t) / end, y = (value) => bottom - ((bottom - top) * value) / (1.06 * most);
     context.font = "12px system-ui, sans-serif";
@@ -40,13 +41,15 @@ class Chart {
       context.fillText(mark >= 1e4 ? `${short(mark / 1e3)}k` : String(mark), left - 6, y(mark));
     }
     context.textBaseline = "alphabetic";
-    const marks = ticks(0, end, Math.max(2, Math.floor(width / 90)));
+    const marks = ticks(0, end, Math.max(3, Math.floor(width / 70)));
     marks.forEach((mark, i) => {
       context.textAlign = i === 0 ? "left" : x(mark) > right - 14 ? "right" : "center";
       context.fillText(i === marks.length - 1 ? `${mark} µs` : String(mark), x(mark), height - 4);
     });
     this.line(context, old, x, y, colours.kept, [5, 4]);
     this.line(context, own, x, y, colours.accent, []);
+    this.mark(context, old, kept?.events, x, y, colours.kept);
+    this.mark(context, own, events, x, y, colours.coated);
     if (time !== undefined && rows.length) {
       context.strokeStyle = colours.muted;
       context.beginPath();
@@ -64,6 +67,17 @@ class Chart {
     for (const row of rows) context.lineTo(x(row.time), y(row[this.column]));
     context.stroke();
     context.setLineDash([]);
+  }
+
+  /** A dot where the bud has budded. */
+  mark(context, rows, events, x, y, colour) {
+    const time = events?.budding?.time_us, after = rows.findIndex((row) => row.time >= time);
+    if (time === undefined || after < 1) return;
+    const [a, b] = [rows[after - 1], rows[after]], part = (time - a.time) / (b.time - a.time);
+    context.fillStyle = colour;
+    context.beginPath();
+    context.arc(x(time), y(a[this.column] + part * (b[this.column] - a[this.column])), 4, 0, 2 * Math.PI);
+    context.fill();
   }
 
   /** What a screen reader is told. */

@@ -125,11 +125,11 @@ class Laboratory {
     const run = this.run;
     if (said.run !== run.id) return;
     for (const [time, neck, height, energy] of said.rows) run.rows.push({ time, neck, height, energy });
-    run.time = said.time_us;
-    run.frames.push(new Frame(run.time, said.shape));
-    run.events = said.events;
+    run.time = said.time_us ?? run.time;
+    if (said.shape) run.frames.push(new Frame(run.time, said.shape));
+    run.events = said.events ?? run.events;
     run.seconds += said.seconds ?? 0;
-    run.memory = said.memory;
+    run.memory = said.memory ?? run.memory;
     run.warnings.push(...said.warnings);
     if (said.ended) {
       run.ended = said.ended;
@@ -193,12 +193,12 @@ class Laboratory {
       this.stage.draw(frame, old);
       if (frame) this.stage.canvas.setAttribute("aria-label", this.picture(frame));
     }
-    for (const chart of this.charts) chart.draw(run.rows, this.kept?.rows, this.shown === undefined ? undefined : frame?.time);
+    for (const chart of this.charts) chart.draw(run, this.kept, this.shown === undefined ? undefined : frame?.time);
     find("warnings").hidden = run.warnings.length === 0;
     if (find("warnings").childElementCount !== run.warnings.length)
       find("warnings").replaceChildren(...run.warnings.map((text) => element("li", {}, text)));
     find("forget").hidden = find("kept").hidden = !this.kept;
-    find("kept").textContent = this.kept ? `Dashed: ${this.kept.label}${this.kept.budding ? `, buds after ${short(this.kept.budding)} µs` : ""}.` : "";
+    find("kept").textContent = this.kept ? `Dashed: ${this.kept.label}${this.kept.events.budding ? `, buds after ${short(this.kept.events.budding.time_us)} µs` : ""}.` : "";
     this.pictures += 1;
   }
 
@@ -219,7 +219,7 @@ class Laboratory {
   }
 
   keepable(label) {
-    return { label, rows: this.run.rows, frames: this.run.frames, budding: this.run.events.budding?.time_us };
+    return { label, rows: this.run.rows, frames: this.run.frames, events: this.run.events };
   }
 
   step(event) {

@@ -73,7 +73,7 @@ class Engine {
   }
 }
 
-let engine = null;
+let module = null, engine = null;
 let run = 0;  // number of the run that computes, 0 when none does
 const SLICE = 0.012;  // s
 const pause = new MessageChannel();
@@ -84,9 +84,23 @@ function progress(said, id) {
   postMessage({ type: "progress", run: id, shape, memory: engine.exports.memory.buffer.byteLength, ...said }, [shape.buffer]);
 }
 
+/** The engine's memory is in no known state after a trap: another one takes its place. */
+function breakDown(failure) {
+  const error = `engine-broke-down: ${failure.message}; restart, with fewer elements or a shorter run`;
+  postMessage({ type: "progress", run, rows: [], warnings: [], error });
+  run = 0;
+  engine = new Engine(module);
+}
+
 function compute() {
   const begin = performance.now();
-  const said = engine.ask("advance", "", SLICE);
+  let said;
+  try {
+    said = engine.ask("advance", "", SLICE);
+  } catch (failure) {
+    breakDown(failure);
+    return;
+  }
   said.seconds = (performance.now() - begin) / 1e3;
   progress(said, run);
   if (said.ended || said.error) run = 0;
@@ -95,7 +109,8 @@ function compute() {
 
 const commands = {
   load({ bytes }) {
-    engine = new Engine(new WebAssembly.Module(bytes));
+    module = new WebAssembly.Module(bytes);
+    engine = new Engine(module);
     return engine.ask("describe");
   },
   check({ text }) { return engine.ask("check", text); },
