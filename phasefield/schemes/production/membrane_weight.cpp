@@ -1,6 +1,7 @@
 #include "phasefield/schemes/production/membrane_weight.h"
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <cmath>
 #include <functional>
@@ -19,7 +20,7 @@ constexpr double smallest_fluidity = constant("smallest_fluidity");
 constexpr double largest_ratio = constant("largest_ratio");
 constexpr double ratio_step = constant("ratio_step");
 constexpr double smallest_viscosity = constant("smallest_viscosity");
-constexpr double nearly_one = 1 - 1e-9;  // the integrands tend to 0 there, as 0/0
+constexpr double nearly_one = 1 - 1e-9;  // φ where the integrands have decayed
 
 MembraneWeight weight_of(double square, double fourth) {
     return {1 - square / 5 - 3 * fourth / 35, square, fourth};
@@ -150,17 +151,22 @@ ExcessShear excess_shear(const MembraneWeight& weight, const FluidParameters& fl
     const double far = inner + outer;
     const auto fluidity = [&](double phi) { return 1 / layer_viscosity(phi, fluid, weight, mean); };
     const bool squares = by_squares(fluid, mean);
-    const auto sum = [&](double phi) {
-        const double h = membrane_indicator(phi, weight);
-        return (squares ? 2 * h * h - 0.5 : (fluidity(phi) + fluidity(-phi)) / far - 1) / (1 - phi * phi);
+    // dφ/(1 − φ²) = ds: over s, nothing is 0/0 at the layer's outer end.
+    const auto sum = [&](double s) {
+        const double phi = std::tanh(s), h = membrane_indicator(phi, weight);
+        return squares ? 2 * h * h - 0.5 : (fluidity(phi) + fluidity(-phi)) / far - 1;
     };
-    const auto moment = [&](double phi) {
-        const double excess =
-            squares ? 2 * membrane_indicator(phi, weight) - 1 : (fluidity(phi) - inner - fluidity(-phi) + outer) / far;
-        return std::atanh(phi) * excess / (1 - phi * phi);
+    const auto moment = [&](double s) {
+        const double phi = std::tanh(s);
+        return s * (squares ? 2 * membrane_indicator(phi, weight) - 1
+                            : (fluidity(phi) - inner - fluidity(-phi) + outer) / far);
     };
-    boost::math::quadrature::tanh_sinh<double> rule;
-    return {rule.integrate(sum, 0.0, nearly_one), rule.integrate(moment, 0.0, nearly_one)};
+    using Rule = boost::math::quadrature::gauss_kronrod<double, 61>;
+    constexpr unsigned int most_halvings = 4;
+    constexpr double tolerance = 1e-12;
+    const double outer_end = std::atanh(nearly_one);
+    return {Rule::integrate(sum, 0.0, outer_end, most_halvings, tolerance),
+            Rule::integrate(moment, 0.0, outer_end, most_halvings, tolerance)};
 }
 
 MembraneWeight membrane_weight(const FluidParameters& fluid, ViscosityMean mean) {
