@@ -1,6 +1,7 @@
 #pragma once
 
 #include "phasefield/schemes/production/layer_energy.h"
+#include "phasefield/schemes/production/step_numbers.h"
 #include "phasefield/solver/linear_system.h"
 
 namespace endoflow::phasefield::production {
