@@ -10,10 +10,10 @@ using namespace endoflow;
 using namespace endoflow::boundary_integral::testing;
 using endoflow::boundary_integral::Run;
 
-constexpr double end = 1e-3;  // µs: a dozen steps, with restarts of the integrator between them
+constexpr double end_of_memory_run = 1e-3;  // µs: a dozen steps, with restarts of the integrator between them
 
 Parameters short_run() {
-    Parameters parameters = standard(16, end);
+    Parameters parameters = standard(16, end_of_memory_run);
     parameters.boundary_integral.restart_interval = 4;
     return parameters;
 }
@@ -32,7 +32,7 @@ TEST_CASE("a run in memory has the rows and shapes of one in a directory", "[run
         CHECK(memory.rows()[i].time_us == Approx(written[i].at("time_us")).epsilon(1e-14));
         CHECK(memory.rows()[i].membrane.bud_height == Approx(written[i].at("bud_height_nm")).epsilon(1e-14));
     }
-    CHECK(memory.shapes().back().time_us == end);
+    CHECK(memory.shapes().back().time_us == end_of_memory_run);
 }
 
 TEST_CASE("a run that is asked to stop leaves a checkpoint that another goes on from as if it had not stopped",

@@ -174,7 +174,7 @@ TEST_CASE("c on a flat membrane relaxes to Langmuir's equilibrium at k_on + k_of
             balance.advance(before, integrator.time(),
                             [&](double t) { return dynamics.exchanged_per_time(integrator.state_at(t)); });
             before = integrator.time();
-            worst = std::max(worst, balance.residual(mass_of(dynamics, integrator.state())));
+            worst = std::max(worst, balance.residual(mass_of(dynamics, integrator.state()), 0));
         });
     const double full = 0.6 * pi * 80 * 80, left = std::exp(-0.5 * 4.0);
     CHECK(mass_of(dynamics, y) == Approx(full + (first - full) * left).epsilon(1e-3));  // tolerance 1e-4 of c a step
