@@ -131,7 +131,7 @@ struct BoundaryIntegralParameters {
     int quadrature_order = 8;
     int threads = 0;
     double mesh_curvature_length = 20;
-    double mesh_edge_length = 32;
+    double mesh_edge_length = 27;
     double mesh_smoothing = 0.05;
     double mesh_relaxation_time = 0.002;
     int restart_interval = 200;

@@ -192,7 +192,9 @@ TEST_CASE("the round-off of a membrane at rest is no flux out of balance", "[dyn
         e.flow.velocity[i] = 1e-11 * std::sin(3.0 * static_cast<double>(i));  // solves no equation
     e.flow.force.setZero();
     e.flow.inflow = 1e-12;
-    const FlowBalances balances = flow_balances(dynamics.space(), *dynamics.box(), *e.operators, e.samples, e.flow);
-    CHECK(balances.net_flux < 1e-3);  // 1e-11 nm/us over 80 nm against 1e-9 of the size in a microsecond
-    CHECK(balances.area < 1e-1);
+    const FlowBalances balances =
+        flow_balances(dynamics.space(), *dynamics.box(), *e.operators, e.samples, e.flow, rest_level(small_case()));
+    // 1e-11 nm/us against a speed of rest of 3e-5: areas of 80 nm² against 14², volumes of 80² against 14²
+    CHECK(balances.net_flux < 1e-4);
+    CHECK(balances.area < 1e-4);
 }

@@ -190,8 +190,8 @@ class CommandLine(CommandLineTest):
             self.assertEqual(json.loads(result.stdout)["time"]["end"], value)
 
     def test_numbers_that_are_none(self):
-        """Too large or too small for a double: a number out of range, not a text."""
-        for text in ("1e400", "-1e400", "1e-400"):
+        """Too large for a double: a number out of range, not a text."""
+        for text in ("1e400", "-1e400"):
             with self.subTest(text):
                 result = endoflow("check", self.case(""), "--set", f"domain.radius={text}")
                 self.assert_refused(result, 2, f"{text} is out of the range of numbers", "domain.radius must be a number > 0")
@@ -202,7 +202,7 @@ class CommandLine(CommandLineTest):
 
     def test_check_foresees_what_is_too_coarse(self):
         """What was measured to be off by 0.4 % and more, against the sharp engine's converged results."""
-        for setting, words in (("boundary_integral.elements=20", ("needs about 56 elements, not 20", "elements = 0")),
+        for setting, words in (("boundary_integral.elements=20", ("needs about 54 elements, not 20", "elements = 0")),
                                ("domain.radius=2000", ("needs about 1014 elements, more than 320", "domain.radius")),
                                ("molecules.patch_radius=70", ("domain.radius above 87.5",)),
                                ("phase_field.cell_size=3", ("phase-field", "cell_size = 0"))):
@@ -247,7 +247,7 @@ class CommandLine(CommandLineTest):
         summary = endoflow("summary", output)
         self.assertEqual(summary.returncode, 0, summary.stderr)
         self.assertRegex(summary.stdout, r"\n  membrane area +2010\d nm²\n")
-        self.assertRegex(summary.stdout, r"\n  curvature convention as-printed: β\(0\) = 50, β\(1\) = 600 pN nm, C\(1\) = 0.14184 1/nm; 56 elements, time tolerance 0.0001; "
+        self.assertRegex(summary.stdout, r"\n  curvature convention as-printed: β\(0\) = 50, β\(1\) = 600 pN nm, C\(1\) = 0.14184 1/nm; 54 elements, time tolerance 0.0001; "
                          r"relative accuracy 0.001 asked for, 2.0e-04 reached\n")
         self.assertRegex(summary.stdout, r"\n  neck radius +-\n")
         self.assertNotRegex(summary.stdout, r"e\+\d")

@@ -57,7 +57,7 @@ RUNS = {
     **{f"patch-{radius}": Run("standard", (f"molecules.patch_radius={radius}",), "1.5") for radius in (20, 28, 44, 60)},
     "at-rest": Run("standard", ("molecules.patch_radius=20",), "2000"),
     "flat": Run("standard", (NO_CURVATURE,), "10", at_rest=True),
-    "no-coat": Run("standard", (NO_CURVATURE, "molecules.patch_radius=0.01"), "10", at_rest=True),
+    "no-coat": Run("standard", (NO_CURVATURE, "membrane.bending_stiffness_coated=100"), "10", at_rest=True),
     **{
         f"sphere-{name}": Run(
             "closed_vesicle",
