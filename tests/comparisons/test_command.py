@@ -50,7 +50,7 @@ class Command(CompareTest):
     def test_output_cannot_be_written(self):
         (self.scratch / "file").write_text("")
         process = compare(self.a, self.b, "-o", self.scratch / "file" / "out")
-        self.assert_one_line(process, 4, "file.*: Not a directory; choose another directory with -o")
+        self.assert_one_line(process, 4, "file: is not a writable directory; choose another directory with -o")
 
     def test_interrupted(self):
         output = self.scratch / "interrupted"
