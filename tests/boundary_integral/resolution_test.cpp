@@ -100,7 +100,8 @@ TEST_CASE("elements are added where the estimate asks for them, up to the most t
     CHECK(elements_for(space, rough, 1e-3) == 40);
     CHECK(elements_for(space, with_waves(space, 0.5), 1e-3) == 30);
     const MembraneState smooth = with_waves(space, 0.5);
-    CHECK(elements_for(space, smooth, 1e-3, 4e-4, 1e-3) == 30);
-    CHECK(elements_for(space, smooth, 1e-3, 6e-4, 1e-3) == 40);  // more than half of what the energy's balance may be
+    CHECK(elements_for(space, smooth, 1e-3, 1e-4, 1e-3) == 30);
+    CHECK(elements_for(space, smooth, 1e-3, 3e-4, 1e-3) ==
+          40);  // more than a fifth of what the energy's balance may be
     CHECK(elements_for(most, with_waves(most, 80.0), 1e-6) == most_elements);
 }

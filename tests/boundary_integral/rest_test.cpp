@@ -44,7 +44,7 @@ TEST_CASE("a flat membrane without spontaneous curvature stays at rest without a
     Parameters parameters = standard(36, 10);
     parameters.membrane.spontaneous_curvature = 0;
     check_rest(parameters, "rest-flat");
-    parameters.molecules.patch_radius = 0.01;
+    parameters.membrane.bending_stiffness_coated = parameters.membrane.bending_stiffness;  // a coat that does nothing
     check_rest(parameters, "rest-bare");
 }
 
