@@ -6,6 +6,7 @@ A full disk is met while writing, where Python has forgotten the name.
 import codecs
 import contextlib
 import errno
+import io
 import json
 import os
 import re
@@ -38,7 +39,8 @@ def take_any_name(*streams):
 
     codecs.register_error("names", kept)
     for stream in streams:
-        stream.reconfigure(errors="names")
+        if isinstance(stream, io.TextIOWrapper):  # a text in memory has no encoding
+            stream.reconfigure(errors="names")
 
 
 @contextlib.contextmanager

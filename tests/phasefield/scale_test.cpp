@@ -67,6 +67,7 @@ Parameters scaled(Parameters p, double length, double time) {
     p.molecules.mobility *= length * length * length / time;
     p.fluid.normal_mobility *= length * length * length * length / time;
     p.time.end *= time;
+    p.time.initial_step *= time;
     return p;
 }
 
