@@ -23,8 +23,8 @@ struct Observables : ShapeMeasures {
     double bending_energy = 0;  ///< (S) with the curve's own κ, pN nm
 };
 
-/// z − z(rim) of the point that is farthest from the rim's plane: > 0 for a bud into the cell, < 0 for one out of it, so
-/// that a mirrored membrane has the opposite height. Of a closed curve its largest less its smallest z. nm
+/// z − z(rim) of the point that is farthest from the rim's plane: > 0 for a bud into the cell, < 0 for one out of it,
+/// so that a mirrored membrane has the opposite height. Of a closed curve its largest less its smallest z. nm
 [[nodiscard]] double bud_height_between(double highest, double lowest, double rim, bool closed);
 
 /// Throws std::invalid_argument unless the curve has at least 4 points and starts on the axis.
