@@ -197,10 +197,6 @@ template <std::size_t M>
 [[nodiscard]] double compose_partial(const Jet<M>& f, std::size_t a, const std::array<double, M>& /*x*/) {
     return f.partial[a];
 }
-template <std::size_t M>
-[[nodiscard]] double compose_partial(const Dual<M>& f, std::size_t a, const std::array<double, M>& /*x*/) {
-    return f.partial[a];
-}
 template <std::size_t M, std::size_t N>
 [[nodiscard]] Dual<N> compose_partial(const Jet<M>& f, std::size_t a, const std::array<Dual<N>, M>& x) {
     Dual<N> y(f.partial[a]);
