@@ -52,12 +52,12 @@ std::string to_string(ExitReason reason) {
 std::string way_on(ExitReason reason, const EngineIdentity& engine, const Parameters& parameters,
                    double checkpoint_us) {
     if (engine.row_order != RowOrder::in_time) return "";
-    const std::string restart = "; continue with --restart";
+    constexpr const char* restart = "; continue with --restart";
     switch (reason) {
         case ExitReason::done:
             return restart;
         case ExitReason::budded:
-            return restart + " and output.stop_at_budding = false";
+            return std::string(restart) + " and output.stop_at_budding = false";
         case ExitReason::neck_closed:
             if (engine.name != "boundary-integral") return "";
             return fmt::format("{} and a boundary_integral.neck_closed_radius below {:g} nm", restart,
