@@ -39,7 +39,7 @@ class OddNames(CommandTest):
                 for words in (("compare", run, self.b, "-o", output), ("report", run)):
                     done = call(*words)
                     self.assertEqual((done.returncode, done.stderr), (0, b""))
-                    self.assertEqual(done.stdout.count(b"\n"), 6 if words[0] == "compare" else 1)
+                    self.assertEqual(done.stdout.count(b"\n"), 7 if words[0] == "compare" else 1)
                 page = (output / "report.html").read_text(encoding="utf-8")
                 self.assertNotIn("ine<b>", page)
                 run.rename(self.a)
