@@ -47,7 +47,7 @@ MOTION = {"folds": NO_BRANCH}
 DIFFUSE = {**MOTION, "modes": SHARP_ONLY}
 REFUSED = {
     "sharp": MOTION,
-    "sharp vesicle": {**MOTION, "modes": (2, "free-space|vesicle|box")},
+    "sharp vesicle": MOTION,
     "diffuse": DIFFUSE,
     "diffuse vesicle": DIFFUSE,
     "geometric": DIFFUSE,
