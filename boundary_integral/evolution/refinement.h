@@ -13,7 +13,7 @@ namespace endoflow::boundary_integral {
 [[nodiscard]] Index initial_elements(const Parameters& parameters);
 
 /// A third more elements, for a state that `accuracy` asks to be refined, or whose energy's balance is off by more than
-/// half of what it may be (`balance_bound`). The same number when there may be no more, or the elements suffice.
+/// a fifth of what it may be (`balance_bound`). The same number when there may be no more, or the elements suffice.
 [[nodiscard]] Index elements_for(const MembraneSpace& space, const MembraneState& state, double accuracy,
                                  double balance = 0.0, double balance_bound = 1.0);
 
