@@ -45,6 +45,7 @@ OTHER_KEYS = {
             "max_step": 0.002,
         },
     },
+    "boundary_integral": {"mesh_relaxation_time": 0.002},
     "time": {"initial_step": 0.0},
     "output": {"field_interval": 0.5},
 }
