@@ -53,10 +53,6 @@ double relaxation_time(const Parameters& p, double length) {
     return (p.fluid.viscosity_extracellular + p.fluid.viscosity_intracellular) * std::pow(length, 3) / stiffness;
 }
 
-double natural_time(const Parameters& p) {
-    return relaxation_time(p, size_of_membrane(p.domain));
-}
-
 double structure_time(const Parameters& p) {
     return relaxation_time(p, length_of_structure(p));
 }

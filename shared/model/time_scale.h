@@ -24,9 +24,6 @@ namespace endoflow {
 /// without (the coat's edge, ε_c wide, then decides), β being largest_stiffness and M fluid.normal_mobility.
 [[nodiscard]] double relaxation_time(const Parameters& parameters, double length);
 
-/// relaxation_time over the membrane's size: 9.4 µs in the standard case.
-[[nodiscard]] double natural_time(const Parameters& parameters);
-
 /// T, the relaxation_time over length_of_structure: 0.051 µs in the standard case.
 [[nodiscard]] double structure_time(const Parameters& parameters);
 

@@ -293,16 +293,16 @@ std::vector<ParameterRow> production_scheme_rows() {
     };
     return {
         row("phase_field.production", "profile_relaxation", production, &S::profile_relaxation, "V", positive(1e9), "M",
-            "flux along the normal that keeps |∇ψ| = 1, at most 2000 times the membrane's speed; V = β/((ν₁ + ν₂) R²)"),
+            "flux along the normal that keeps |∇ψ| = 1, at most 2000 times the membrane's speed; V = β/((ν₁ + ν₂) L²)"),
         row("phase_field.production", "tension_alignment", production, &S::tension_alignment, "1/ν", positive(1e9), "",
             "keeps λ constant across the layer; ν is the smaller viscosity"),
         row("phase_field.production", "tension_leak", production, &S::tension_leak, "1/ν", positive(1e6), "",
             "defines λ far from the layer; as small as it is, it leaks no area"),
-        row("phase_field.production", "strain_relaxation", production, &S::strain_relaxation, "V/R", at_least(0, 1e9),
+        row("phase_field.production", "strain_relaxation", production, &S::strain_relaxation, "V/L", at_least(0, 1e9),
             "ζ", "rate at which accumulated area strain s - 1 is removed"),
-        row("phase_field.production", "stretching_alignment", production, &S::stretching_alignment, "V R",
+        row("phase_field.production", "stretching_alignment", production, &S::stretching_alignment, "V L",
             positive(1e12), "", "keeps s constant across the layer"),
-        row("phase_field.production", "thinning", production, &S::thinning, "domain.radius", at_least(0, 10), "ρ₀",
+        row("phase_field.production", "thinning", production, &S::thinning, "L", at_least(0, 10), "ρ₀",
             "where a radius of curvature of the membrane is below it the layer is thinner in proportion; 0 = uniform"),
     };
 }

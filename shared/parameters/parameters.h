@@ -100,12 +100,12 @@ struct PaperSchemeParameters {
 
 /// What scheme `production` alone reads.
 struct ProductionSchemeParameters {
-    double profile_relaxation = 2350;
+    double profile_relaxation = 73;
     double tension_alignment = 0.03;
     double tension_leak = 1e-5;
-    double strain_relaxation = 940;
-    double stretching_alignment = 293;
-    double thinning = 0.175;
+    double strain_relaxation = 5.15;
+    double stretching_alignment = 51.6;
+    double thinning = 1;
 };
 
 struct PhaseFieldParameters {

@@ -16,7 +16,7 @@ TEST_CASE("molecules are conserved when the mesh and the layer's thickness chang
     // was a source.
     Parameters p = small_case();
     p.molecules.patch_radius = 10;  // bends more strongly
-    p.phase_field.production.thinning = 0.5;
+    p.phase_field.production.thinning = 1.42;  // 20 nm
     ProductionScheme scheme(p, MPI_COMM_SELF);
     scheme.start();
     const double mass = scheme.integrate().molecules;

@@ -67,7 +67,7 @@ TEST_CASE("cells are finer where the layer is thinner", "[refinement]") {
     // ε is in proportion to the neck's radius, 14 nm for ε₀; a cell may be 1.05 times as many ε wide as elsewhere,
     // which a catenoid of 17 nm is for 2 (14/17)⁸ = 0.42.
     Parameters p = with_cells();
-    p.phase_field.production.thinning = 0.175;
+    p.phase_field.production.thinning = 1;
     for (const auto& [neck, halvings] : {std::pair{9.0, 1}, {6.0, 1}, {4.5, 2}, {3.0, 2}}) {
         CAPTURE(neck);
         CHECK(wanted_size(refined_bands(bud_on_neck(neck), p), p, neck, 60) <= cell_size * std::exp2(-halvings));
@@ -78,7 +78,7 @@ TEST_CASE("cells are finer where the layer is thinner", "[refinement]") {
 
 TEST_CASE("fine cells reach three thicknesses of the layer that is there", "[refinement]") {
     Parameters p = with_cells();
-    p.phase_field.production.thinning = 0.175;
+    p.phase_field.production.thinning = 1;
     const double neck = 3;
     auto curve = bud_on_neck(neck);
     curve.u_r.assign(curve.size(), 0);

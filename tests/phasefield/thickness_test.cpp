@@ -9,6 +9,7 @@
 #include "phasefield/schemes/production/layer_thickness.h"
 #include "phasefield/schemes/production/point_equations.h"
 #include "run_steps.h"
+#include "shared/model/time_scale.h"
 #include "small_case.h"
 
 using namespace endoflow;
@@ -59,9 +60,36 @@ TEST_CASE("the layer is as thick as asked for where the membrane is flat, and no
     for (const double epsilon : thickness_along(bud_on_neck(20, 3, 4), p)) CHECK(epsilon == p.phase_field.epsilon);
 }
 
+TEST_CASE("far from the coat a flat layer is thicker, as far as the walls leave room", "[thickness]") {
+    Parameters p;
+    p.domain.radius = 400;
+    p.domain.height = 800;
+    p.domain.membrane_height = 400;
+    MembraneCurve flat;
+    for (double r = 0; r <= 400; r += 1) {
+        flat.r.push_back(r);
+        flat.z.push_back(400);
+    }
+    const double near = p.molecules.patch_radius + std::numbers::pi * length_of_structure(p), slope = constant("thinning_slope");
+    const auto thickness = thickness_along(flat, p);
+    for (std::size_t i = 0; i < thickness.size(); ++i) {
+        const double away = flat.r[i] - near;
+        const double expected = p.phase_field.epsilon * std::clamp(1 + slope * away / p.phase_field.epsilon, 1.0, 8.0);
+        // The mean over 2 ε₀ of arc rounds the two bends, twice.
+        CHECK(std::abs(thickness[i] - expected) <= slope * p.phase_field.epsilon);
+    }
+    CHECK(thickness.front() == Approx(p.phase_field.epsilon));
+    CHECK(thickness.back() == Approx(8 * p.phase_field.epsilon));
+    p.domain.membrane_height = 20;
+    CHECK(widest_layer(p, 400) == Approx(20 / constant("room_needed")));
+    p.domain.membrane_height = 400;
+    p.molecules.exchange = Exchange::edge;
+    CHECK(widest_layer(p, 400) == p.phase_field.epsilon);
+}
+
 TEST_CASE("the layer follows neck and bend", "[thickness]") {
     const Parameters p;
-    const double widest = p.phase_field.epsilon, radius = p.phase_field.production.thinning * p.domain.radius;
+    const double widest = p.phase_field.epsilon, radius = p.phase_field.production.thinning * length_of_structure(p);
     const double bud = 20, neck = 3, bend = 6;
     const auto curve = bud_on_neck(bud, neck, bend);
     const auto thickness = thickness_along(curve, p);
@@ -130,7 +158,7 @@ TEST_CASE("a layer's thickness is that of the closest point of a smooth curve", 
 TEST_CASE("the layer's thickness is that of the membrane at a step's end", "[thickness][production]") {
     Parameters p = small_case();
     p.molecules.patch_radius = 10;  // bends more strongly
-    p.phase_field.production.thinning = 0.5;
+    p.phase_field.production.thinning = 1.42;  // 20 nm
     ProductionScheme scheme(p, MPI_COMM_SELF);
     MembraneCurve curve = scheme.start().contour.curve;
     double time = 0;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "phasefield/schemes/production/constants.h"
+#include "phasefield/schemes/production/layer_thickness.h"
 #include "shared/model/time_scale.h"
 
 namespace endoflow::phasefield::production {
@@ -26,7 +27,7 @@ bool at_rim(BoundaryId boundary, double above, double half_width) {
     return boundary == side && std::abs(above) * (1 - 1e-12) <= half_width;
 }
 double layer_half_width(const Parameters& p) {
-    return std::max(p.domain.pin_half_width, rim_half_width * p.phase_field.epsilon);
+    return std::max(p.domain.pin_half_width, rim_half_width * widest_layer(p, p.domain.radius));
 }
 
 bool without_flow(const Parameters& p) {
@@ -142,8 +143,8 @@ std::vector<unsigned int> field_degrees(const PhaseFieldParameters& p) {
 }
 
 Scales scales(const Parameters& p) {
-    const double length = size_of_membrane(p.domain);
-    return {length, p.phase_field.epsilon, length / natural_time(p), largest_stiffness(p.membrane)};
+    const double length = length_of_structure(p);
+    return {length, p.phase_field.epsilon, length / structure_time(p), largest_stiffness(p.membrane)};
 }
 
 Vector initial_fields(const Space& space, const Parameters& p, const MembraneEnergy& energy) {

@@ -44,9 +44,9 @@ using Fields = std::array<AtPoint<Number>, n_fields>;
 
 /// By what the sizes of the fields are measured.
 struct Scales {
-    double length;     // R, of the problem [nm]
+    double length;     // L, length_of_structure [nm]
     double thickness;  // ε [nm]
-    double speed;      // R over the natural time [nm/µs]
+    double speed;      // V = L/structure_time [nm/µs]
     double stiffness;  // β, the larger one [pN nm]
 };
 Scales scales(const Parameters& parameters);
@@ -57,7 +57,7 @@ struct Unknown {
     Field field;
     const char* output_name;  // "velocity" twice: a vector's components
     unsigned int (*degree)(const PhaseFieldParameters&);
-    double (*size)(const Scales&);  // in a membrane that is bent over the size of the problem
+    double (*size)(const Scales&);  // in a membrane that is bent over L
     /// The value it is held at on a boundary, `above` the membrane's flat height [nm], if it is.
     std::optional<double> (*held)(dealii::types::boundary_id, double above, const Parameters&) = nullptr;
     double (*initial)(const InitialPoint&, const MembraneEnergy&) = nullptr;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "phasefield/contour/closest_value.h"
@@ -21,6 +22,7 @@ namespace endoflow::phasefield::production {
 namespace {
 
 constexpr double thinnest = constant("thinnest");
+constexpr double thickest = constant("thickest");
 constexpr double thinning_slope = constant("thinning_slope");
 constexpr double thinning_window = constant("thinning_window");
 constexpr double room_needed = constant("room_needed");
@@ -109,17 +111,28 @@ double room_of_layer(const MembraneCurve& curve, const ByArcLength& path, const 
 
 }  // namespace
 
+double widest_layer(const Parameters& p, double r) {
+    const double epsilon = p.phase_field.epsilon;
+    const bool flat_far_away = p.domain.kind == DomainKind::box && p.molecules.exchange == Exchange::none;
+    if (p.phase_field.production.thinning == 0 || !flat_far_away) return epsilon;
+    const double near = p.molecules.patch_radius + std::numbers::pi * length_of_structure(p);
+    const double to_wall = std::min(p.domain.membrane_height, p.domain.height - p.domain.membrane_height);
+    const double most = std::min(thickest * epsilon, to_wall / room_needed);
+    return std::max(epsilon, std::min(most, epsilon + thinning_slope * (r - near)));
+}
+
 std::vector<double> thickness_along(const MembraneCurve& curve, const Parameters& p) {
-    const double widest = p.phase_field.epsilon,
-                 radius = p.phase_field.production.thinning * size_of_membrane(p.domain);
-    std::vector<double> epsilon(curve.size(), widest);
+    const double uniform = p.phase_field.epsilon,
+                 radius = p.phase_field.production.thinning * length_of_structure(p);
+    std::vector<double> epsilon(curve.size(), uniform);
     if (radius == 0 || curve.size() < 3) return epsilon;
     const ByArcLength path(curve);
-    const double window = thinning_window * widest;
+    const double window = thinning_window * uniform;
     for (std::size_t i = 0; i < epsilon.size(); ++i) {
         const Chord chord(path, path.s[i], window);
         const auto [along, around] = curvatures(chord, window);
         const double room = room_of_layer(curve, path, chord, path.s[i], window);
+        const double widest = widest_layer(p, curve.r[i]);
         const double narrowing = 1 + eighth_power(radius * along) + eighth_power(radius * around) +
                                  eighth_power(room_needed * widest / room);
         epsilon[i] = widest * std::max(thinnest, std::pow(narrowing, -0.125));
@@ -130,7 +143,7 @@ std::vector<double> thickness_along(const MembraneCurve& curve, const Parameters
     };
     for (std::size_t i = 1; i < epsilon.size(); ++i) limit(i, i - 1);
     for (std::size_t i = epsilon.size() - 1; i > 0; --i) limit(i - 1, i);
-    return averaged(path.s, averaged(path.s, epsilon, widest), widest);
+    return averaged(path.s, averaged(path.s, epsilon, uniform), uniform);
 }
 
 ThicknessCurve::ThicknessCurve(const MembraneCurve& curve, double time, const Parameters& parameters)

@@ -17,8 +17,14 @@ struct PointThickness {
     double r = 0, z = 0;  // ∂ε/∂r, ∂ε/∂z
 };
 
-/// ε at the points of the membrane [nm]: phase_field.epsilon, and where a radius of curvature ρ, along the meridian or
-/// around the axis, is below ρ₀, the part `thinning` of the box, smaller in proportion, ε₀ (1 + Σ (ρ₀/ρ)⁸)^(−1/8), and
+/// ε₀ at the distance r from the axis [nm]: phase_field.epsilon as far as the coat and what forms of it reach, r_c + πL
+/// (L: length_of_structure), half the arc of the sphere beside the coat; beyond, where an open membrane is flat and hardly
+/// moves, thicker by `thinning_slope` of the distance, up to `thickest` times and as far as the walls leave room. So a wide
+/// box costs few cells. Everywhere phase_field.epsilon for a vesicle, a coat that grows, and a uniform layer.
+double widest_layer(const Parameters& parameters, double r);
+
+/// ε at the points of the membrane [nm]: ε₀, and where a radius of curvature ρ, along the meridian or
+/// around the axis, is below ρ₀, `thinning` times L, smaller in proportion, ε₀ (1 + Σ (ρ₀/ρ)⁸)^(−1/8), and
 /// so where the layer of another part of the membrane is met within `room_needed` ε₀, but nowhere below the part
 /// `thinnest` of ε₀. Along the membrane it changes by at most `thinning_slope`. What a layer
 /// does to a neck is of the order of (ε/ρ)².

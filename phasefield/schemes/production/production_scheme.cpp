@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "phasefield/layer/boundary_flux.h"
@@ -38,9 +39,9 @@ double step_tolerance(const Parameters& p) {
     return error_part * time_tolerance(p, default_tolerance);
 }
 
-/// The same of the membrane's position [nm].
+/// The same of the membrane's position [nm], over the circumference of what forms.
 double position_tolerance(const Parameters& p) {
-    return step_tolerance(p) * size_of_membrane(p.domain);
+    return step_tolerance(p) * 2 * std::numbers::pi * length_of_structure(p);
 }
 
 /// Longest step [µs] after one of `tau` in which membrane and molecules changed by so many of the errors that a step
@@ -221,7 +222,9 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     measures.diagnostics.net_vertical_force = net_vertical_force(space_, energy_, numbers_, history, trial_);
     measures.diagnostics.extracellular_inflow =
         extracellular_inflow(space_, trial_, velocity_r, velocity_z, distance,
-                             [this](double psi) { return equilibrium_profile(psi, parameters_.phase_field.epsilon); });
+                             [epsilon = widest_layer(parameters_, parameters_.domain.radius)](double psi) {
+                                 return equilibrium_profile(psi, epsilon);
+                             });
     measures.diagnostics.load_power = load_power(space_, numbers_, history, trial_);
     trial_integrals_ = measures.integrals;
     if (bulk_)

@@ -26,14 +26,14 @@ double largest_crowding(const Parameters& p) {
 
 SchemeRates scheme_rates(const Parameters& p) {
     const ProductionSchemeParameters& factors = p.phase_field.production;
-    const double radius = size_of_membrane(p.domain), speed = radius / natural_time(p);
+    const double length = length_of_structure(p), speed = length / structure_time(p);
     const double fluidity = 1 / std::min(p.fluid.viscosity_extracellular, p.fluid.viscosity_intracellular);
     SchemeRates rates;
     rates.profile_relaxation = factors.profile_relaxation * speed;
-    rates.strain_relaxation = factors.strain_relaxation * speed / radius;
+    rates.strain_relaxation = factors.strain_relaxation * speed / length;
     rates.crowding = largest_crowding(p);
-    rates.stretching_alignment = factors.stretching_alignment * speed * radius;
-    rates.least_normal_diffusivity = constant("least_normal_diffusivity") * speed * std::pow(radius, 4);
+    rates.stretching_alignment = factors.stretching_alignment * speed * length;
+    rates.least_normal_diffusivity = constant("least_normal_diffusivity") * speed * std::pow(length, 4);
     rates.fast_membrane = constant("fast_membrane") * speed;
     rates.molecule_leak = constant("molecule_leak") * speed;
     rates.tension_alignment = factors.tension_alignment * fluidity;

@@ -22,8 +22,7 @@ struct SchemeRates {
     double divergence_penalty = 0;        // of ∇·u over ν, times the membrane's speed [nm/µs]
 };
 
-/// Scales: the box's radius R, of a vesicle its longer semi-axis, the membrane's speed V = R/natural_time, the smaller
-/// viscosity ν, and ε.
+/// Scales: L, length_of_structure(), the membrane's speed V = L/structure_time(), the smaller viscosity ν, and ε.
 [[nodiscard]] SchemeRates scheme_rates(const Parameters& parameters);
 
 }  // namespace endoflow::phasefield::production

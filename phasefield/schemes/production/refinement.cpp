@@ -20,7 +20,7 @@ constexpr double neck_cells = constant("neck_cells");
 constexpr double motion_with_flow = constant("motion_with_flow");
 constexpr double motion_without_flow = constant("motion_without_flow");
 constexpr double cells_slack = constant("cells_slack");
-constexpr unsigned int most_neck_levels = count("most_neck_levels");
+constexpr int most_neck_levels = count("most_neck_levels");
 
 using Indices = std::vector<std::size_t>;
 
@@ -115,21 +115,22 @@ double follow_after_motion(const Parameters& p) {
 
 std::vector<RefinedBand> refined_bands(const MembraneCurve& curve, const Parameters& parameters) {
     const auto& p = parameters.phase_field;
-    const unsigned int level_of_layer = layer_level(parameters);
+    const auto level_of_layer = static_cast<int>(layer_level(parameters));
     const auto thickness = thickness_along(curve, parameters);
     const Path path(curve, thickness, p.epsilon, follow_after_motion(parameters));
     std::vector<RefinedBand> out;
-    const auto add = [&](const Indices& part, double layers, unsigned int halvings) {
-        out.push_back({path.around(part, layers), level_of_layer + halvings, p.cell_size / (1U << halvings)});
+    const auto add = [&](const Indices& part, double layers, int halvings) {
+        out.push_back({path.around(part, layers), static_cast<unsigned int>(level_of_layer + halvings),
+                       std::ldexp(p.cell_size, -halvings)});
     };
     const double wanted = edge_cells * parameters.molecules.interface_width;
-    const auto edge_levels = static_cast<unsigned int>(std::max(0.0, std::ceil(std::log2(p.cell_size / wanted))));
+    const auto edge_levels = static_cast<int>(std::max(0.0, std::ceil(std::log2(p.cell_size / wanted))));
     if (edge_levels > 0) add(patch_edge(curve), fine_band, edge_levels);
-    double thin = p.epsilon / cells_slack;
-    unsigned int halvings = 0;
-    for (Indices part = whole(curve); !part.empty(); part = thin_part(thickness, thin), thin /= 2)
+    const double thickest = *std::ranges::max_element(thickness);
+    int halvings = -std::min(level_of_layer, static_cast<int>(std::log2(cells_slack * thickest / p.epsilon)));
+    for (Indices part = whole(curve); !part.empty(); part = thin_part(thickness, std::ldexp(p.epsilon / cells_slack, 1 - halvings)))
         add(part, p.band_width > 0 ? p.band_width : fine_band, halvings++);
-    for (unsigned int k = 1; k <= most_neck_levels; ++k) {
+    for (int k = 1; k <= most_neck_levels; ++k) {
         const Indices neck = narrow_part(curve, p.cell_size / (1U << (k - 1)) / neck_cells);
         if (!neck.empty()) add(neck, fine_band, k);
     }

@@ -11,7 +11,7 @@ namespace endoflow::phasefield::production {
 double follow_after_motion(const Parameters& parameters);
 
 /// Where the mesh is fine, here and where the membrane will be when the mesh follows again: around the whole membrane,
-/// finer where it is thin (as ε), at the patch's edge (three quarters of its width) and where the membrane is narrow (a
+/// finer where it is thin and coarser where it is thick (as ε), at the patch's edge (three quarters of its width) and where the membrane is narrow (a
 /// quarter of its radius of curvature around the axis, r/|n_r|, but at least a quarter of `cell_size`): normals fan out
 /// there, and on coarser cells what varies along the membrane within one of them drives flows that carry most of the
 /// dissipation.
