@@ -15,7 +15,7 @@ TEST_CASE("molecules are conserved when the mesh and the layer's thickness chang
     // Each solution of the past keeps its own integral: with one factor for all, what the others' integrals were off by
     // was a source.
     Parameters p = small_case();
-    p.molecules.patch_radius = 10;  // bends more strongly
+    p.molecules.patch_radius = 10;             // bends more strongly
     p.phase_field.production.thinning = 1.42;  // 20 nm
     ProductionScheme scheme(p, MPI_COMM_SELF);
     scheme.start();

@@ -70,7 +70,8 @@ TEST_CASE("far from the coat a flat layer is thicker, as far as the walls leave 
         flat.r.push_back(r);
         flat.z.push_back(400);
     }
-    const double near = p.molecules.patch_radius + std::numbers::pi * length_of_structure(p), slope = constant("thinning_slope");
+    const double near = p.molecules.patch_radius + std::numbers::pi * length_of_structure(p),
+                 slope = constant("thinning_slope");
     const auto thickness = thickness_along(flat, p);
     for (std::size_t i = 0; i < thickness.size(); ++i) {
         const double away = flat.r[i] - near;
@@ -157,7 +158,7 @@ TEST_CASE("a layer's thickness is that of the closest point of a smooth curve", 
 
 TEST_CASE("the layer's thickness is that of the membrane at a step's end", "[thickness][production]") {
     Parameters p = small_case();
-    p.molecules.patch_radius = 10;  // bends more strongly
+    p.molecules.patch_radius = 10;             // bends more strongly
     p.phase_field.production.thinning = 1.42;  // 20 nm
     ProductionScheme scheme(p, MPI_COMM_SELF);
     MembraneCurve curve = scheme.start().contour.curve;

@@ -122,8 +122,7 @@ double widest_layer(const Parameters& p, double r) {
 }
 
 std::vector<double> thickness_along(const MembraneCurve& curve, const Parameters& p) {
-    const double uniform = p.phase_field.epsilon,
-                 radius = p.phase_field.production.thinning * length_of_structure(p);
+    const double uniform = p.phase_field.epsilon, radius = p.phase_field.production.thinning * length_of_structure(p);
     std::vector<double> epsilon(curve.size(), uniform);
     if (radius == 0 || curve.size() < 3) return epsilon;
     const ByArcLength path(curve);

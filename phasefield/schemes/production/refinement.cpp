@@ -25,10 +25,10 @@ constexpr int most_neck_levels = count("most_neck_levels");
 using Indices = std::vector<std::size_t>;
 
 /// Points of the curve, where the layer has this thickness [nm], and where they will be when the mesh follows again:
-/// the one that moves most layers of its own is `motion` of the thickest layers away [nm].
+/// the one that moves most layers of its own is `motion` of a layer `widest` away [nm].
 class Path {
   public:
-    Path(const MembraneCurve& curve, const std::vector<double>& thickness, double thickest, double motion)
+    Path(const MembraneCurve& curve, const std::vector<double>& thickness, double widest, double motion)
         : curve_(&curve), thickness_(&thickness), ahead_(curve.size()) {
         if (curve.u_r.size() != curve.size()) return;  // at rest
         double fastest = 0;
@@ -37,7 +37,7 @@ class Path {
             const double dr = curve.r[after] - curve.r[before], dz = curve.z[after] - curve.z[before];
             const double speed = (curve.u_z[i] * dr - curve.u_r[i] * dz) / (dr * dr + dz * dz);
             ahead_[i] = {-speed * dz, speed * dr};  // the velocity's part across the membrane
-            fastest = std::max(fastest, std::hypot(ahead_[i].r, ahead_[i].z) * thickest / thickness[i]);
+            fastest = std::max(fastest, std::hypot(ahead_[i].r, ahead_[i].z) * widest / thickness[i]);
         }
         const double time = fastest > 0 ? motion / fastest : 0;
         for (auto& step : ahead_) step = {step.r * time, step.z * time};
@@ -126,9 +126,10 @@ std::vector<RefinedBand> refined_bands(const MembraneCurve& curve, const Paramet
     const double wanted = edge_cells * parameters.molecules.interface_width;
     const auto edge_levels = static_cast<int>(std::max(0.0, std::ceil(std::log2(p.cell_size / wanted))));
     if (edge_levels > 0) add(patch_edge(curve), fine_band, edge_levels);
-    const double thickest = *std::ranges::max_element(thickness);
-    int halvings = -std::min(level_of_layer, static_cast<int>(std::log2(cells_slack * thickest / p.epsilon)));
-    for (Indices part = whole(curve); !part.empty(); part = thin_part(thickness, std::ldexp(p.epsilon / cells_slack, 1 - halvings)))
+    const double widest = *std::ranges::max_element(thickness);
+    int halvings = -std::min(level_of_layer, static_cast<int>(std::log2(cells_slack * widest / p.epsilon)));
+    for (Indices part = whole(curve); !part.empty();
+         part = thin_part(thickness, std::ldexp(p.epsilon / cells_slack, 1 - halvings)))
         add(part, p.band_width > 0 ? p.band_width : fine_band, halvings++);
     for (int k = 1; k <= most_neck_levels; ++k) {
         const Indices neck = narrow_part(curve, p.cell_size / (1U << (k - 1)) / neck_cells);
