@@ -22,10 +22,10 @@ FlowDomain flow_domain(const Parameters& p) {
 }
 
 unsigned int layer_level(const Parameters& p) {
-    constexpr double fewest_cells = 6;
-    const auto asked_for = static_cast<unsigned int>(p.phase_field.far_refinements);
-    const double halvings = std::log2(flow_domain(p).radius / (fewest_cells * p.phase_field.cell_size));
-    return std::max(asked_for, static_cast<unsigned int>(std::max(0.0, halvings)));
+    constexpr double most_cells = 48;
+    const double doublings = std::log2(flow_domain(p).radius / (most_cells * p.phase_field.cell_size));
+    return static_cast<unsigned int>(p.phase_field.far_refinements) +
+           static_cast<unsigned int>(std::max(0.0, doublings));
 }
 
 }  // namespace endoflow::phasefield
