@@ -14,8 +14,8 @@ namespace {
 /// No array of a run directory comes near this; a larger size in a file means that the file is damaged.
 constexpr hsize_t largest_array = hsize_t{1} << 28;
 
-/// Our handles close what they opened. HDF5's own clean-up would try again what failed on a full disk, and crash. At exit
-/// it can be declined before the first other call only; with MPI's end it comes if HDF5 starts after MPI.
+/// Our handles close what they opened. HDF5's own clean-up would try again what failed on a full disk, and crash. At
+/// exit it can be declined before the first other call only; with MPI's end it comes if HDF5 starts after MPI.
 [[maybe_unused]] const herr_t no_clean_up = H5dont_atexit() < 0 ? -1 : H5open();
 
 /// An HDF5 identifier that closes itself.
