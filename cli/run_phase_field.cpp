@@ -199,7 +199,7 @@ int end_after_failure(int code, int rank, int processes) {
 
 int main(int argc, char** argv) {
     using namespace endoflow;
-    const phasefield::Environment environment(argc, argv);
+    const phasefield::Environment environment(argv);
     int rank = 0, processes = 1;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &processes);

@@ -5,6 +5,8 @@
 #include <dmumps_c.h>
 #include <petscversion.h>
 
+#include <array>
+#include <memory>
 #include <string>
 
 #include "phasefield/driver/history.h"
@@ -43,13 +45,17 @@ void check_leaks() {}
 
 struct Environment::Implementation {
     using Session = dealii::Utilities::MPI::MPI_InitFinalize;
-    Implementation(int& argc, char**& argv) {
+    /// PETSc would take the rest of the command line for options of its own, and say which of them nobody asked for.
+    explicit Implementation(char* program) : words{program, nullptr} {
         [[maybe_unused]] const LeaksOfOthers others;
-        mpi = std::make_unique<Session>(argc, argv, 1);
+        int count = 1;
+        char** first = words.data();
+        mpi = std::make_unique<Session>(count, first, 1);
     }
     Implementation(const Implementation&) = delete;
     Implementation& operator=(const Implementation&) = delete;
     ~Implementation() { check_leaks(); }
+    std::array<char*, 2> words;
     std::unique_ptr<Session> mpi;
 };
 
@@ -64,13 +70,13 @@ void hold_blas_to_one_thread() {
 
 }  // namespace
 
-Environment::Environment(int& argc, char**& argv) {
+Environment::Environment(char** argv) {
     require_fast_blas(argv);
     setenv("OMP_NUM_THREADS", "1", 1);
     // Open MPI 4.1 writes the name of a file it opens beside the directory's into 256 bytes, and aborts where they do
     // not suffice. Shared file pointers, which that component is for, nobody uses here.
     setenv("OMPI_MCA_sharedfp", "^lockedfile", 0);
-    implementation_ = std::make_unique<Implementation>(argc, argv);
+    implementation_ = std::make_unique<Implementation>(argv[0]);
     let_mpi_leave_the_last_word();
     hold_blas_to_one_thread();
 }

@@ -14,7 +14,7 @@ namespace endoflow::phasefield {
 /// shared out by mpirun.
 class Environment {
   public:
-    Environment(int& argc, char**& argv);
+    explicit Environment(char** argv);
     ~Environment();
     Environment(const Environment&) = delete;
     Environment& operator=(const Environment&) = delete;

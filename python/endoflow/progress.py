@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import os
 import sys
@@ -39,11 +40,10 @@ class Progress:
         print(f"\r[{'=' * done}{' ' * (WIDTH - done)}] {text:<24}", end="", file=sys.stderr, flush=True)
 
     def _in_notebook(self, text: str) -> None:
-        from IPython.display import HTML, display
-
-        bar = HTML(f'<progress max="1" value="{self.fraction:.4f}" style="width: 20em"></progress> {text}')
+        ipython: Any = importlib.import_module("IPython.display")  # some versions of it are typed, some are not
+        bar = ipython.HTML(f'<progress max="1" value="{self.fraction:.4f}" style="width: 20em"></progress> {text}')
         if self._handle is None:
-            self._handle = display(bar, display_id=True)
+            self._handle = ipython.display(bar, display_id=True)
         else:
             self._handle.update(bar)
 

@@ -4,6 +4,6 @@
 #include "phasefield/simulation.h"
 
 int main(int argc, char** argv) {
-    const endoflow::phasefield::Environment environment(argc, argv);
+    const endoflow::phasefield::Environment environment(argv);
     return Catch::Session().run(argc, argv);
 }
