@@ -4,6 +4,9 @@
 const find = (id) => document.getElementById(id);
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 
+/** Shapes that a run keeps: of a long one, every second goes each time there are more. Some 5 kB each. */
+const MOST_FRAMES = 1200;
+
 class Laboratory {
   constructor() {
     this.engine = new EngineClient(WORKER, WASM);
@@ -80,7 +83,7 @@ class Laboratory {
   async fromAddress() {
     const unknown = this.settings.fromHash(location.hash);
     await this.start();
-    if (unknown.length) this.fail(`the link names what is no parameter: ${unknown.join(", ")}; the rest of it is set`);
+    if (unknown.length) this.say(`the link names what is no parameter: ${unknown.join(", ")}; the rest of it is set`);
   }
 
   async preset(name) {
@@ -109,9 +112,10 @@ class Laboratory {
     if (said.error) this.fail(said.error);
   }
 
+  /** A run that ends before the worker hears of it has ended, not stopped. */
   async stop() {
-    this.enter("stopped");
-    await this.engine.ask("stop");
+    const { id } = this.run;
+    if (await this.engine.ask("stop") === id && this.run.id === id) this.enter("stopped");
   }
 
   async resume() {
@@ -127,6 +131,7 @@ class Laboratory {
     for (const [time, neck, height, energy] of said.rows) run.rows.push({ time, neck, height, energy });
     run.time = said.time_us ?? run.time;
     if (said.shape) run.frames.push(new Frame(run.time, said.shape));
+    if (run.frames.length > MOST_FRAMES) this.thin(run);
     run.events = said.events ?? run.events;
     run.seconds += said.seconds ?? 0;
     run.memory = said.memory ?? run.memory;
@@ -140,9 +145,20 @@ class Laboratory {
     this.redraw();
   }
 
-  fail(message) {
+  /** Leaves out every second shape, but not the last one. */
+  thin(run) {
+    const last = run.frames.length - 1;
+    run.frames = run.frames.filter((_, i) => i % 2 === 0 || i === last);
+    if (this.shown !== undefined) this.shown = Math.floor(this.shown / 2);
+  }
+
+  say(message) {
     find("error").textContent = message;
     find("error").hidden = false;
+  }
+
+  fail(message) {
+    this.say(message);
     this.enter("failed");
   }
 
