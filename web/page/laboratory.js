@@ -141,6 +141,8 @@ class Laboratory {
       this.enter("ended");
     } else if (said.error) {
       this.fail(said.error);
+    } else if (said.paused) {
+      this.enter("stopped");
     }
     this.redraw();
   }
@@ -178,7 +180,7 @@ class Laboratory {
   verdict() {
     const budding = this.run.events.budding?.time_us;
     if (budding !== undefined) return ["Buds after ", `${Number(budding.toPrecision(4))} µs`];
-    if (this.state === "failed") return ["Stopped by an error"];
+    if (this.state === "failed") return [this.run.rows.length ? "Stopped by an error" : "These settings cannot run"];
     if (this.state === "ended" && this.run.ended === "neck-closed") return ["The neck closed after ", `${short(this.run.time)} µs`];
     if (this.state === "ended") return ["No bud until ", `${short(this.run.time)} µs`];
     if (this.state === "stopped") return ["Stopped"];
