@@ -2,8 +2,10 @@
 """What the laboratory in the browser costs, beside the program: bench/laboratory.py build/web/index.html build/endoflow [--repeats N].
 
 Each repeat opens the page in a fresh Chromium, waits for the standard case's budding, and runs the program on the same
-case with one thread. Medians of the repeats; ratios are taken inside one repeat. CPU times are those of the worker's
-thread and of the program's process, from their beginning, so that they hold on a machine that does other things too.
+case with one thread. Medians of the repeats; ratios are taken inside one repeat. CPU times hold on a machine that does
+other things too: those of the worker's thread, of the page's whole process with drawing and the compilation of
+WebAssembly, and of the program; until the first motion, those of the page's own thread and of the worker, which wait
+for each other.
 """
 
 import argparse
@@ -35,64 +37,62 @@ requestAnimationFrame(look);
 """
 
 
-def threads():
-    """(pid, name, CPU seconds) of every thread of this user's processes that are called chromium."""
-    for process in Path("/proc").iterdir():
-        if not process.name.isdigit():
-            continue
-        try:
-            if "chromium" not in (process / "comm").read_text():
-                continue
-            for task in (process / "task").iterdir():
-                fields = (task / "stat").read_text().rsplit(")", 1)[1].split()
-                yield int(process.name), (task / "comm").read_text().strip(), (int(fields[11]) + int(fields[12])) / TICK
-        except OSError:
-            continue  # it ended meanwhile
+def threads(pid):
+    """{thread's id: (name, CPU seconds)} of a process."""
+    found = {}
+    for task in Path(f"/proc/{pid}/task").iterdir():
+        fields = (task / "stat").read_text().rsplit(")", 1)[1].split()
+        found[int(task.name)] = ((task / "comm").read_text().strip(), (int(fields[11]) + int(fields[12])) / TICK)
+    return found
 
 
-def is_below(pid, ancestor):
-    """Whether a process is a descendant of another one."""
-    while pid > 1 and pid != ancestor:
-        try:
-            pid = int(Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[1])
-        except OSError:
-            return False
-    return pid == ancestor
+def children(pid):
+    """Ids of the processes that descend from one."""
+    born = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    return [grandchild for child in map(int, born) for grandchild in (child, *children(child))]
+
+
+def renderer(visited):
+    """Process of the page's browser in which the engine's worker lives."""
+    (found,) = [
+        pid
+        for pid in children(visited._process.pid)
+        if any(name.startswith("DedicatedWorker") for name, _ in threads(pid).values())
+    ]
+    return found
+
+
+def worker_seconds(pid):
+    return sum(seconds for name, seconds in threads(pid).values() if name.startswith("DedicatedWorker"))
 
 
 def page_costs(page):
-    """One visit until the standard case has ended."""
+    """One visit until the standard case has budded."""
     with browser.Browser(1366, 768) as visited:
         visited._call("Page.addScriptToEvaluateOnNewDocument", {"source": WATCH})
-        visited.open(page, "window.laboratory?.state === 'ended'")
-        worker = [
-            (pid, seconds)
-            for pid, name, seconds in threads()
-            if name.startswith("DedicatedWorker") and is_below(pid, visited._process.pid)
-        ]
-        ((renderer, cpu),) = worker
-        proportional = next(
-            int(line.split()[1]) * 1024
-            for line in Path(f"/proc/{renderer}/smaps_rollup").read_text().splitlines()
-            if line.startswith("Pss:")
-        )
+        visited.open(page, "window.seen?.motion > 0")
+        pid = renderer(visited)
+        first_cpu = worker_seconds(pid) + threads(pid)[pid][1]
+        while visited.evaluate("laboratory.state") != "stopped":
+            time.sleep(0.2)
+        everything = sum(seconds for _, seconds in threads(pid).values())
+        lines = Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines()
+        memory = sum(int(line.split()[1]) * 1024 for line in lines if line.startswith("Pss:"))
         seen = json.loads(visited.evaluate("JSON.stringify(seen)"))
-        heap = visited._call("Runtime.getHeapUsage")["usedSize"]
-        engine = visited.evaluate("laboratory.run.memory")
-        wall = visited.evaluate("laboratory.run.seconds")
-        budding = visited.evaluate("laboratory.run.events.budding.time_us")
-    gaps = [b - a for a, b in zip(seen["frames"], seen["frames"][1:])]
-    return {
-        "first_motion_s": seen["motion"] / 1e3,
-        "worker_cpu_s": cpu,
-        "engine_wall_s": wall,
-        "pictures_per_s": 1e3 * len(gaps) / sum(gaps),
-        "late_pictures": sum(gap > 25 for gap in gaps) / len(gaps),
-        "memory_engine_mb": engine / 1e6,
-        "memory_page_mb": heap / 1e6,
-        "memory_process_mb": proportional / 1e6,
-        "budding_us": budding,
-    }
+        gaps = [b - a for a, b in zip(seen["frames"], seen["frames"][1:])]
+        return {
+            "first_motion_s": seen["motion"] / 1e3,
+            "first_motion_cpu_s": first_cpu,
+            "worker_cpu_s": worker_seconds(pid),
+            "page_cpu_s": everything,
+            "engine_wall_s": visited.evaluate("laboratory.run.seconds"),
+            "pictures_per_s": 1e3 * len(gaps) / sum(gaps),
+            "late_pictures": sum(gap > 25 for gap in gaps) / len(gaps),
+            "memory_engine_mb": visited.evaluate("laboratory.run.memory") / 1e6,
+            "memory_script_mb": visited._call("Runtime.getHeapUsage")["usedSize"] / 1e6,
+            "memory_process_mb": memory / 1e6,
+            "budding_us": visited.evaluate("laboratory.run.events.budding.time_us"),
+        }
 
 
 def program_costs(program):
@@ -100,7 +100,7 @@ def program_costs(program):
     with tempfile.TemporaryDirectory() as scratch:
         case = Path(scratch) / "case.toml"
         case.write_text("")
-        settings = ["boundary_integral.threads=1", "output.field_interval=0"]
+        settings = ["boundary_integral.threads=1", "output.field_interval=0", "output.stop_at_budding=true"]
         command = [program, "run", "boundary-integral", case, "-o", Path(scratch) / "run"]
         command += [word for setting in settings for word in ("--set", setting)]
         begin = time.monotonic()
@@ -121,7 +121,8 @@ def main():
     found = []
     for _ in range(options.repeats):
         row = page_costs(options.page) | program_costs(options.program.resolve())
-        row["cpu_ratio"] = row["worker_cpu_s"] / row["program_cpu_s"]
+        row["worker_to_program"] = row["worker_cpu_s"] / row["program_cpu_s"]
+        row["page_to_program"] = row["page_cpu_s"] / row["program_cpu_s"]
         row["load"] = os.getloadavg()[0]
         found.append(row)
     content = options.page.read_bytes()

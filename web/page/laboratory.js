@@ -211,7 +211,8 @@ class Laboratory {
       this.stage.draw(frame, old);
       if (frame) this.stage.canvas.setAttribute("aria-label", this.picture(frame));
     }
-    for (const chart of this.charts) chart.draw(run, this.kept, this.shown === undefined ? undefined : frame?.time);
+    if (this.state !== "running" || this.pictures % 4 === 0)  // curves grow by less than what is seen at once
+      for (const chart of this.charts) chart.draw(run, this.kept, this.shown === undefined ? undefined : frame?.time);
     find("warnings").hidden = run.warnings.length === 0;
     if (find("warnings").childElementCount !== run.warnings.length)
       find("warnings").replaceChildren(...run.warnings.map((text) => element("li", {}, text)));
