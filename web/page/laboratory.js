@@ -16,15 +16,15 @@ class Laboratory {
       new Chart(find("energy"), "energy", "Bending energy", "pN nm")];
     this.run = this.emptyRun(0);
     this.kept = null;
-    this.state = "loading";
     this.pictures = 0;  // drawn since the page was opened
+    this.enter("loading");
   }
 
   emptyRun(id) { return { id, rows: [], frames: [], events: {}, warnings: [], time: 0, seconds: 0, memory: 0 }; }
 
   async open() {
     const said = await this.engine.loaded;
-    if (said.error) return this.fail(`the engine did not start: ${said.error}; a browser of 2022 or later is needed`);
+    if (said.error) return this.fail(`the engine did not start: ${said.error}; a browser of 2023 or later is needed`);
     this.version = `${said.version} (${said.git})`;
     find("version").textContent = `endoflow ${this.version}.`;
     this.settings = new Settings(said.parameters);
@@ -77,6 +77,8 @@ class Laboratory {
     addEventListener("hashchange", () => { if (location.hash.slice(1) !== this.settings.toHash()) this.fromAddress(); });
     addEventListener("resize", () => this.redraw());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.redraw());
+    const view = document.querySelector(".view");
+    new ResizeObserver(() => document.documentElement.style.setProperty("--view-height", `${view.offsetHeight}px`)).observe(view);
     find("stage").addEventListener("keydown", (event) => this.step(event));
   }
 
@@ -180,6 +182,7 @@ class Laboratory {
   verdict() {
     const budding = this.run.events.budding?.time_us;
     if (budding !== undefined) return ["Buds after ", `${Number(budding.toPrecision(4))} µs`];
+    if (this.state === "loading") return ["Loading the engine"];
     if (this.state === "failed") return [this.run.rows.length ? "Stopped by an error" : "These settings cannot run"];
     if (this.state === "ended" && this.run.ended === "neck-closed") return ["The neck closed after ", `${short(this.run.time)} µs`];
     if (this.state === "ended") return ["No bud until ", `${short(this.run.time)} µs`];
