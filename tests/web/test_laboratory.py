@@ -116,6 +116,8 @@ class Page(unittest.TestCase):
         )
 
     def text(self, part):
+        """What an element says when everything until now has been drawn."""
+        self.browser.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
         return self.browser.evaluate(f"document.getElementById('{part}').textContent")
 
 
