@@ -3,6 +3,7 @@
 #   make demo       install what is missing, build, run both engines on cases/demo.toml, compare: out/demo/report.html
 #   make test       the same set-up, then all tests and make lint   (SANITIZE=1: with sanitizers)
 #                   SANITIZE=thread: the engine with threads, under the thread sanitizer
+#                   where emscripten is installed, it builds and tries the page of `make web` too: 3 CPU minutes, once
 #   make build      build/endoflow and its engines
 #   make install    DESTDIR and prefix as usual          make package   a Debian package in build/
 #   make hero       the README's picture and film, from what make demo made
@@ -39,6 +40,8 @@ else
 endif
 
 groups := base $(if $(filter ON,$(PHASEFIELD)),phasefield)
+# Sanitizers do not see into WebAssembly: with them the page is left out.
+page_for_tests = $(if $(filter 0,$(SANITIZE)),tools/web/page_for_tests $(build) --parallel $(CORES),:)
 engines := boundary-integral $(if $(filter ON,$(PHASEFIELD)),phase-field)
 
 # OpenMPI refuses to run as root unless told twice that this is meant.
@@ -88,6 +91,7 @@ test: test-packages
 	@$(MAKE) --no-print-directory configure TESTS=ON
 	cmake --build $(build)
 	@$(MAKE) --no-print-directory lint
+	@$(page_for_tests)
 	ctest --test-dir $(build) --parallel $(CORES) --output-on-failure --timeout 3600 $(tests)
 
 bench: build
@@ -106,7 +110,7 @@ web:
 	@$(MAKE) --no-print-directory web-page
 
 web-page:
-	tools/web/build_engine $(build)/web-engine
+	tools/web/build_engine $(build)/web-engine --parallel $(CORES)
 	tools/web/page.py $(build)/web-engine/engine.wasm $(build)/web/index.html
 
 docs: build

@@ -24,7 +24,7 @@ SWITCHES = (
     "--remote-debugging-pipe",
 )
 
-KEY_CODES = {"ArrowLeft": 37, "ArrowRight": 39, " ": 32, "v": 86}
+KEY_CODES = {"Tab": 9, "Home": 36, "ArrowLeft": 37, "ArrowRight": 39, " ": 32, "v": 86}
 
 
 def chromium():
@@ -131,6 +131,15 @@ class Browser:
                 raise RuntimeError(f"{path.name} did not become ready: {self.problems}")
             time.sleep(0.05)
 
+    def visit(self, url):
+        """Go to an address; the page before is left, also where the new address differs in its fragment alone."""
+        self._call("Page.navigate", {"url": "about:blank"})
+        self._call("Page.navigate", {"url": url})
+
+    def download_to(self, directory):
+        """Save what the page offers for download in a directory (pathlib.Path), without a question."""
+        self._call("Page.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(directory)})
+
     def evaluate(self, expression):
         """Value of a JavaScript expression, promises awaited."""
         answer = self._call("Runtime.evaluate", {"expression": expression, "returnByValue": True, "awaitPromise": True})
@@ -162,9 +171,17 @@ class Browser:
         size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
         self._call("Emulation.setDeviceMetricsOverride", size)
 
-    def prefer(self, scheme):
-        """Make the system ask for "light" or "dark"."""
-        self._call("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+    def prefer(self, scheme, motion="no-preference"):
+        """Make the system ask for "light" or "dark", and for motion, "no-preference" or "reduce"."""
+        features = {"prefers-color-scheme": scheme, "prefers-reduced-motion": motion}
+        features = [{"name": name, "value": value} for name, value in features.items()]
+        self._call("Emulation.setEmulatedMedia", {"features": features})
+
+    def named_parts(self):
+        """(role, name, description) of what a screen reader meets, in its order."""
+        nodes = self._call("Accessibility.getFullAXTree")["nodes"]
+        read = [[node.get(part, {}).get("value", "") for part in ("role", "name", "description")] for node in nodes if not node["ignored"]]
+        return [tuple(part) for part in read]
 
     def screenshot(self, path, whole_page=False):
         """Save what is shown, or the whole page, as a PNG (pathlib.Path)."""

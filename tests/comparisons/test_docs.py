@@ -20,6 +20,7 @@ from scratch import scratch_directory
 TOOLS = locations.ROOT / "tools" / "docs"
 sys.path.insert(0, str(TOOLS))
 
+import build  # noqa: E402
 import check  # noqa: E402
 from pages import Block, blocks, pages  # noqa: E402
 
@@ -137,6 +138,16 @@ class Pages(unittest.TestCase):
                 for target in re.findall(r'(?:src|href)="([^":#]+)["#]', text):
                     if not target.startswith("../.."):
                         self.assertTrue((page.parent / target).exists(), f"{page.name}: {target}")
+
+
+class Laboratory(unittest.TestCase):
+    """The page about the laboratory in the browser holds the laboratory itself, above its first section."""
+
+    def test_frame(self):
+        text = build.with_laboratory((locations.ROOT / "docs" / "web.md").read_text(encoding="utf-8"))
+        head, section = text.split("\n## ", 1)
+        self.assertIn(f'src="{build.LABORATORY_FILE}"', head)
+        self.assertTrue(section.startswith("How to use it"))
 
 
 @unittest.skipUnless(shutil.which("pandoc"), "pandoc is not installed (Debian package pandoc)")

@@ -9,7 +9,7 @@ ROOT = Path(__file__).resolve().parents[2]
 #: Order of the pages below docs/ by groups; any others follow in the order of their names.
 GROUPS = {
     "Use": (
-        "index", "install", "first-run", "case-files", "parameters-biology", "outputs", "studies", "inference", "paper", "paraview", "python",
+        "index", "install", "first-run", "case-files", "parameters-biology", "outputs", "studies", "inference", "paper", "paraview", "python", "web",
     ),
     "Methods": (
         "model", "boundary-integral", "phase-field", "phase-field-paper", "statics", "modes", "verification", "decisions/index",

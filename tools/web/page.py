@@ -16,6 +16,7 @@ CASES = {
     "standard": "The standard case",
     "fickian": "Molecules that diffuse",
     "geometric": "No fluid",
+    "asymptotic": "A smooth edge",
     "statics": "A coat too small to bud",
     "tube": "A bare membrane under tension",
     "line-tension": "An edge that costs",

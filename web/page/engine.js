@@ -1,6 +1,12 @@
 "use strict";
 // The page's side of the worker.
 
+function decoded64(text) {
+  const letters = atob(text), bytes = new Uint8Array(letters.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = letters.charCodeAt(i);
+  return bytes;
+}
+
 class EngineClient {
   constructor(workerSource, wasm) {
     this.worker = new Worker(URL.createObjectURL(new Blob([workerSource], { type: "text/javascript" })));
@@ -12,7 +18,7 @@ class EngineClient {
       this.waiting.get(data.question)(data.answer);
       this.waiting.delete(data.question);
     };
-    this.loaded = this.ask("load", { bytes: Uint8Array.from(atob(wasm), (c) => c.charCodeAt(0)) });
+    this.loaded = this.ask("load", { bytes: decoded64(wasm) });
   }
 
   ask(command, more = {}) {

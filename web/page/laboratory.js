@@ -4,6 +4,9 @@
 const find = (id) => document.getElementById(id);
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 
+/** Shapes that a run keeps: of a long one, every second goes each time there are more. Some 5 kB each. */
+const MOST_FRAMES = 1200;
+
 class Laboratory {
   constructor() {
     this.engine = new EngineClient(WORKER, WASM);
@@ -13,15 +16,15 @@ class Laboratory {
       new Chart(find("energy"), "energy", "Bending energy", "pN nm")];
     this.run = this.emptyRun(0);
     this.kept = null;
-    this.state = "loading";
     this.pictures = 0;  // drawn since the page was opened
+    this.enter("loading");
   }
 
   emptyRun(id) { return { id, rows: [], frames: [], events: {}, warnings: [], time: 0, seconds: 0, memory: 0 }; }
 
   async open() {
     const said = await this.engine.loaded;
-    if (said.error) return this.fail(`the engine did not start: ${said.error}; a browser of 2022 or later is needed`);
+    if (said.error) return this.fail(`the engine did not start: ${said.error}; a browser of 2023 or later is needed`);
     this.version = `${said.version} (${said.git})`;
     find("version").textContent = `endoflow ${this.version}.`;
     this.settings = new Settings(said.parameters);
@@ -74,13 +77,15 @@ class Laboratory {
     addEventListener("hashchange", () => { if (location.hash.slice(1) !== this.settings.toHash()) this.fromAddress(); });
     addEventListener("resize", () => this.redraw());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.redraw());
+    const view = document.querySelector(".view");
+    new ResizeObserver(() => document.documentElement.style.setProperty("--view-height", `${view.offsetHeight}px`)).observe(view);
     find("stage").addEventListener("keydown", (event) => this.step(event));
   }
 
   async fromAddress() {
     const unknown = this.settings.fromHash(location.hash);
     await this.start();
-    if (unknown.length) this.fail(`the link names what is no parameter: ${unknown.join(", ")}; the rest of it is set`);
+    if (unknown.length) this.say(`the link names what is no parameter: ${unknown.join(", ")}; the rest of it is set`);
   }
 
   async preset(name) {
@@ -109,9 +114,10 @@ class Laboratory {
     if (said.error) this.fail(said.error);
   }
 
+  /** A run that ends before the worker hears of it has ended, not stopped. */
   async stop() {
-    this.enter("stopped");
-    await this.engine.ask("stop");
+    const { id } = this.run;
+    if (await this.engine.ask("stop") === id && this.run.id === id) this.enter("stopped");
   }
 
   async resume() {
@@ -127,6 +133,7 @@ class Laboratory {
     for (const [time, neck, height, energy] of said.rows) run.rows.push({ time, neck, height, energy });
     run.time = said.time_us ?? run.time;
     if (said.shape) run.frames.push(new Frame(run.time, said.shape));
+    if (run.frames.length > MOST_FRAMES) this.thin(run);
     run.events = said.events ?? run.events;
     run.seconds += said.seconds ?? 0;
     run.memory = said.memory ?? run.memory;
@@ -136,13 +143,26 @@ class Laboratory {
       this.enter("ended");
     } else if (said.error) {
       this.fail(said.error);
+    } else if (said.paused) {
+      this.enter("stopped");
     }
     this.redraw();
   }
 
-  fail(message) {
+  /** Leaves out every second shape, but not the last one. */
+  thin(run) {
+    const last = run.frames.length - 1;
+    run.frames = run.frames.filter((_, i) => i % 2 === 0 || i === last);
+    if (this.shown !== undefined) this.shown = Math.floor(this.shown / 2);
+  }
+
+  say(message) {
     find("error").textContent = message;
     find("error").hidden = false;
+  }
+
+  fail(message) {
+    this.say(message);
     this.enter("failed");
   }
 
@@ -162,7 +182,8 @@ class Laboratory {
   verdict() {
     const budding = this.run.events.budding?.time_us;
     if (budding !== undefined) return ["Buds after ", `${Number(budding.toPrecision(4))} µs`];
-    if (this.state === "failed") return ["Stopped by an error"];
+    if (this.state === "loading") return ["Loading the engine"];
+    if (this.state === "failed") return [this.run.rows.length ? "Stopped by an error" : "These settings cannot run"];
     if (this.state === "ended" && this.run.ended === "neck-closed") return ["The neck closed after ", `${short(this.run.time)} µs`];
     if (this.state === "ended") return ["No bud until ", `${short(this.run.time)} µs`];
     if (this.state === "stopped") return ["Stopped"];
@@ -193,7 +214,8 @@ class Laboratory {
       this.stage.draw(frame, old);
       if (frame) this.stage.canvas.setAttribute("aria-label", this.picture(frame));
     }
-    for (const chart of this.charts) chart.draw(run, this.kept, this.shown === undefined ? undefined : frame?.time);
+    if (this.state !== "running" || this.pictures % 4 === 0)  // curves grow by less than what is seen at once
+      for (const chart of this.charts) chart.draw(run, this.kept, this.shown === undefined ? undefined : frame?.time);
     find("warnings").hidden = run.warnings.length === 0;
     if (find("warnings").childElementCount !== run.warnings.length)
       find("warnings").replaceChildren(...run.warnings.map((text) => element("li", {}, text)));

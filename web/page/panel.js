@@ -95,7 +95,7 @@ class Panel {
       changed();
     });
     this.fields.set(row.name, input);
-    const allowed = row.choices.length || !row.allowed ? "" : ` Allowed: ${row.allowed}.`;
+    const allowed = row.choices.length || !row.allowed ? "" : ` Allowed: ${row.allowed.replaceAll("<=", "≤").replaceAll(">=", "≥")}.`;
     return element("div", { class: "parameter" },
       element("label", { for: id }, row.name.split(".").at(-1), row.unit ? ` (${row.unit})` : ""), input,
       element("p", { id: `${id}-note` }, `${row.meaning}.${allowed}`));

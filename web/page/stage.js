@@ -142,10 +142,11 @@ class Stage {
     if (fastest === 0) return;
     context.strokeStyle = context.fillStyle = colours.ink;
     context.lineWidth = 1.5;
-    const every = Math.max(1, Math.round(frame.count / 26));
+    const longest = Math.min(46, this.canvas.clientWidth / 12);
+    const every = Math.max(1, Math.round((0.6 * frame.count * longest) / this.canvas.clientWidth));
     for (const side of [-1, 1]) {
       for (let i = every; i < frame.count; i += every) {
-        const [u, w] = frame.u(i), length = Math.hypot(u, w) / fastest * 46;
+        const [u, w] = frame.u(i), length = Math.hypot(u, w) / fastest * longest;
         if (length < 3) continue;
         const x = view.x(side * frame.r(i)), y = view.y(frame.z(i));
         const angle = Math.atan2(-w, side * u), tx = x + length * Math.cos(angle), ty = y + length * Math.sin(angle);
@@ -162,7 +163,7 @@ class Stage {
     }
     context.font = "13px system-ui, sans-serif";
     context.textAlign = "left";
-    context.fillText(`longest arrow: ${short(fastest)} nm/µs`, 14, 24);
+    context.fillText(`longest arrow: ${short(fastest)} nm/µs`, 14, 44);
   }
 
   drawWords(context, frame, view, width, height, colours) {
@@ -178,7 +179,7 @@ class Stage {
     context.fillText(`${bar} nm`, width - 16, height - 24);
     context.textAlign = "left";
     context.fillText("outside the cell", 14, height - 14);
-    if (!frame.closed() && !this.arrows) context.fillText("inside the cell", 14, 24);
+    if (!frame.closed()) context.fillText("inside the cell", 14, 24);
   }
 }
 

@@ -39,6 +39,7 @@ class Tour {
     this.remember();
     this.place = place;
     document.getElementById("tour").hidden = false;
+    document.body.classList.add("touring");
     document.getElementById("tour-place").textContent = `Step ${place + 1} of ${TOUR.length}`;
     document.getElementById("tour-title").textContent = step.title;
     document.getElementById("tour-text").textContent = step.text;
@@ -59,6 +60,7 @@ class Tour {
 
   close() {
     document.getElementById("tour").hidden = true;
+    document.body.classList.remove("touring");
     this.place = -1;
     document.getElementById("tour-open").focus();
   }

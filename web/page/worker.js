@@ -75,6 +75,7 @@ class Engine {
 
 let module = null, engine = null;
 let run = 0;  // number of the run that computes, 0 when none does
+let budded = false;  // the run has been seen to bud, and has paused there
 const SLICE = 0.012;  // s
 const pause = new MessageChannel();
 pause.port1.onmessage = () => { if (run) compute(); };
@@ -102,8 +103,10 @@ function compute() {
     return;
   }
   said.seconds = (performance.now() - begin) / 1e3;
+  said.paused = !budded && said.events.budding !== undefined && !said.ended;
+  budded ||= said.paused;
   progress(said, run);
-  if (said.ended || said.error) run = 0;
+  if (said.ended || said.error || said.paused) run = 0;
   else pause.port2.postMessage(null);
 }
 
@@ -116,6 +119,7 @@ const commands = {
   check({ text }) { return engine.ask("check", text); },
   start({ text, id }) {
     run = 0;
+    budded = false;
     const said = engine.ask("start", text);
     if (!said.error) {
       progress(said, id);
