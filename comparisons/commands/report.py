@@ -4,27 +4,15 @@ Writes report.html and its plots. Exit codes: 0 done; 2 bad command line; 4 the 
 written; 130 interrupted.
 """
 
-from pathlib import Path
-
-from comparisons.files import require_writable, shown, write_text
-
-from .options import Parser
-
-
-def parsed(arguments):
-    """The command line as a namespace."""
-    parser = Parser(prog="endoflow report", description="Make a page of one run.", allow_abbrev=False)
-    parser.add_argument("directory", metavar="DIR", type=Path, help="directory of a run")
-    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="where to write (default: DIR/report)")
-    return parser.parse_args(arguments)
+import endoflow
+from comparisons.drawing import run_plots
+from comparisons.errors import shown
+from comparisons.files import require_writable, write_text
+from comparisons.page.run_report import run_html
 
 
 def run(options):
     """Run the command; returns its exit code."""
-    import endoflow
-    from comparisons.drawing import run_plots
-    from comparisons.page.run_report import run_html
-
     found = endoflow.load(options.directory)
     output = options.output or options.directory / "report"
     require_writable(output)

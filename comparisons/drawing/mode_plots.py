@@ -6,6 +6,8 @@ from matplotlib.colors import LinearSegmentedColormap
 from comparisons.drawing import style
 from comparisons.drawing.plots import save_all
 from comparisons.drawing.pyplot import plt
+from comparisons.drawing.surfaces import Revolved
+from endoflow.curves import resample
 
 #: From the lowest mode to the highest; lightness is monotone.
 MODE_COLOURS = LinearSegmentedColormap.from_list("modes", ("#8E1068", "#0072B2", "#56B4A0", "#B9C76A"))
@@ -126,9 +128,6 @@ def shapes(modes):
 
 def surface(meridian, spacing):
     """(points, quads, arrays) of an endoflow.modes.Meridian for a .vtp file: c and each mode's displacement (nm), vectors."""
-    from comparisons.drawing.surfaces import Revolved
-    from endoflow.curves import resample
-
     modes = sorted(meridian.modes)
     along = [meridian.modes[m].w for m in modes]
     r, z, n_r, n_z, c, *w = resample(

@@ -4,7 +4,8 @@ from collections import namedtuple
 
 from matplotlib.colors import LinearSegmentedColormap
 
-from comparisons.files import printable, shown
+from comparisons.errors import printable, shown
+
 
 #: Colour of each engine (Okabe and Ito, safe for colour-blind readers) on light and on dark ground.
 ENGINE_COLOURS = {"boundary-integral": ("#0072B2", "#4DB2EC"), "phase-field": ("#D55E00", "#FF9248")}

@@ -6,7 +6,7 @@ from matplotlib.ticker import NullFormatter, NullLocator
 from comparisons.drawing import style
 from comparisons.drawing.plots import legend_on_top, save
 from comparisons.drawing.pyplot import plt
-from comparisons.studies.ranges import as_number
+from comparisons.files import as_number
 
 #: Columns of sweep.csv that are drawn, with their titles; the first three make the heat maps.
 QUANTITIES = {

@@ -74,6 +74,31 @@ def calibrate(problem, trained, truth, course, seed):
     )
 
 
+def calibration(problem, simulator, trained, count, directory, say):
+    """The entry `calibration` of infer.json, of `count` cases; directory: of a run whose parameters are true, or None.
+
+    say(text) is told each stage. Raises StudyError when no case is like the emulator's runs.
+    """
+    seed = problem.study.seed + 100
+    if directory:
+        x, course = truth_of_run(problem, directory)
+        truth, courses = [x] * count, [course] * count
+    else:
+        truth = truths(problem, count, seed)
+        say(f"calibration: {count} run(s) with true values drawn from the priors")
+        courses = simulator.courses(truth[:, : problem.engine_count])
+    say(f"calibration: {count} posteriors on the emulator")
+    kept = []
+    for number, (x, course) in enumerate(zip(truth, courses)):
+        simulator.study.stop_if_interrupted()
+        case = calibrate(problem, trained, x, course, seed + 1 + number)
+        kept += [case] if case is not None else []
+    if not kept:
+        raise StudyError("no calibration case ends as the emulator's runs do; narrow the priors", BAD_INPUT)
+    left_out, origin = count - len(kept), str(directory) if directory else None
+    return {**summary(problem, kept), "left_out": left_out, "truth": origin}
+
+
 def summary(problem, cases):
     """What the Cases say, as a dict for JSON: coverage with the 95 % interval that chance allows, ranks in groups, p-values."""
     count = len(cases)

@@ -6,7 +6,6 @@ import unicodedata
 from dataclasses import dataclass
 
 from comparisons.inference.key_kinds import Choice, Flag, Heads, Number, Text, Texts, ValueRefused, Whole, choice, shown
-from comparisons.inference.priors import KINDS
 from comparisons.inference.text_file import ENCODINGS
 
 #: Columns of history.csv that may be data.
@@ -27,6 +26,15 @@ SPELLINGS = {"A": "Å", "angstrom": "Å", "Angstrom": "Å", "um": "µm", "px": "
 
 #: Separators of cells by the names that a study may give them.
 SEPARATORS = {",": ",", ";": ";", "|": "|", "tab": "\t", "space": " "}
+
+
+#: Keys of each kind of prior.
+KINDS = {
+    "uniform": ("low", "high"),
+    "log-uniform": ("low", "high"),
+    "normal": ("mean", "sd"),
+    "log-normal": ("median", "factor"),
+}
 
 
 def unit_of_text(text):

@@ -38,6 +38,7 @@ from dataclasses import asdict
 import numpy as np
 from scipy.integrate import trapezoid
 
+from comparisons.errors import StudyError
 from comparisons.measures.basis import basis
 from comparisons.measures.distances import curve_distance
 from comparisons.measures.finding import finding
@@ -65,7 +66,7 @@ PROFILE_SPACING = 0.1
 PROFILE_SAMPLES = 4000
 
 
-class NoCommonTimeError(Exception):
+class NoCommonTimeError(StudyError):
     """The two runs have no time in common, or nothing but one moment."""
 
 

@@ -5,9 +5,10 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+import endoflow
 from comparisons import ROOT
 from comparisons.errors import RUN_FAILED, StudyError
-from comparisons.studies.study import program
+from comparisons.studies.members import program
 from endoflow.errors import last_word
 
 
@@ -22,8 +23,6 @@ class Branch:
 
 def followed(case, key, end, settings):
     """The Branch of cases/CASE.toml with settings {section.key: text} in a key, to its value `end`. Raises StudyError."""
-    import endoflow
-
     with tempfile.TemporaryDirectory() as scratch:
         directory = Path(scratch) / "branch"
         words = [str(program()), "statics", str(ROOT / "cases" / f"{case}.toml"), "-o", str(directory)]

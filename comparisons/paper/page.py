@@ -5,6 +5,7 @@ from comparisons.measures.basis import basis
 from comparisons.page import report
 from comparisons.page.numbers import escaped, figures, setting
 from comparisons.page.study_report import page
+from comparisons.paper import NAMES, OTHER_NAMES, item_module
 
 from .item import is_run, not_run_remarks, state_of
 
@@ -12,8 +13,8 @@ COMMAND = "endoflow reproduce"
 SOURCE = "J. Lowengrub, J. Allard, S. Aland, J. Comput. Phys. (2016)"
 
 
-def item_html(item, title, source, result, runs, quick, directory):
-    """The page's text; result: item.Result, its figures saved in directory (Path)."""
+def item_html(item, module, result, runs, quick, directory):
+    """The page's text; module: the item's; result: item.Result, its figures saved in directory (Path)."""
     remarks = [*result.remarks, *not_run_remarks(runs)]
     sections = [
         ("The paper beside this", printed_table(result.printed)),
@@ -22,8 +23,8 @@ def item_html(item, title, source, result, runs, quick, directory):
         ("Numbers", numbers_table(result.rows) + f'<p class="note">{escaped(item)}.csv holds them with 12 digits.</p>'),
         ("Runs", runs_table(runs)),
     ]
-    subtitle = f"{source} · {'quick' if quick else 'full'}"
-    return page(f"{COMMAND} {item}", title, subtitle, alarms(runs), [], sections, directory)
+    subtitle = f"{getattr(module, 'SOURCE', SOURCE)} · {'quick' if quick else 'full'}"
+    return page(f"{COMMAND} {item}", module.TITLE, subtitle, alarms(runs), [], sections, directory)
 
 
 def alarms(runs):
@@ -93,14 +94,11 @@ def summary_lines(item, result, directory):
 
 def index_html(output):
     """A page that links to every item that lies in output (Path)."""
-    from . import ITEMS, OTHERS
-
-    modules = {**ITEMS, **OTHERS}
-    made = [name for name in modules if (output / name / "report.html").exists()]
+    made = [name for name in (*NAMES, *OTHER_NAMES) if (output / name / "report.html").exists()]
     rows = []
     for name in made:
         picture = next(iter(sorted((output / name).glob("*.png"), key=lambda p: (len(p.name), p.name))), None)
         image = f'<img src="{escaped(picture.relative_to(output))}" alt="" width="320">' if picture else ""
-        link = f'<a href="{escaped(name)}/report.html">{escaped(modules[name].TITLE)}</a>'
+        link = f'<a href="{escaped(name)}/report.html">{escaped(item_module(name).TITLE)}</a>'
         rows.append(("", [link, image, f'<a href="{escaped(name)}/{escaped(name)}.csv">CSV</a>']))
     return page(COMMAND, "The paper, reproduced", SOURCE, [], [], [("Items", report.table(["", "", ""], rows))], output)

@@ -9,8 +9,9 @@ from unittest import mock
 import locations  # noqa: F401
 import numpy as np
 from comparisons.commands import reproduce
+from comparisons.commands.options import parsed
 from comparisons.errors import StudyError
-from comparisons.paper import OTHERS, branches, derenyi2002, hassinger2017, juelicher1996
+from comparisons.paper import OTHER_NAMES, branches, derenyi2002, hassinger2017, item_module, juelicher1996
 from scratch import scratch_directory
 
 
@@ -18,8 +19,7 @@ class ReadOff(unittest.TestCase):
     """Numbers on the page, from branches that are known."""
 
     def test_names_are_those_of_the_command(self):
-        self.assertEqual(tuple(OTHERS), reproduce.OTHER_NAMES)
-        for module in OTHERS.values():
+        for module in map(item_module, OTHER_NAMES):
             self.assertEqual(module.wanted(False), [])
             self.assertTrue(module.TITLE and module.SOURCE)
 
@@ -76,7 +76,7 @@ class ReadOff(unittest.TestCase):
         self.assertEqual(ours[:3], ["28.0992589 pN", "22 nm", "20.0 % above"])
         output = scratch_directory(self) / "papers"
         with mock.patch.object(derenyi2002, "followed", return_value=branch), redirect_stdout(io.StringIO()):
-            self.assertEqual(reproduce.run(reproduce.parsed(["derenyi2002", "-o", str(output)])), 0)
+            self.assertEqual(reproduce.run(parsed("reproduce", ["derenyi2002", "-o", str(output)])), 0)
         self.assertIn("derenyi2002/report.html", (output / "index.html").read_text(), "an index of no runs")
         self.assertFalse((output / "runs.csv").exists())
 

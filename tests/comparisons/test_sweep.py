@@ -8,7 +8,7 @@ from command import unnamed_basis
 from studies import BOUNDARY_INTEGRAL, PATCHES, SweepTest
 
 from comparisons.drawing import sweep_plots
-from comparisons.studies.sweep_table import cell
+from comparisons.files import cell
 
 
 class Sweep(SweepTest):
