@@ -20,8 +20,8 @@ def call(arguments):
     def body():
         options = parsed(name, words)
         # Not before: who asks for help, or errs, does not wait for SciPy and matplotlib.
-        command = importlib.import_module(f"comparisons.commands.{name}")
-        code = command.run(options)
+        module, function = COMMANDS[name].place.split(".")
+        code = getattr(importlib.import_module(f"comparisons.commands.{module}"), function)(options)
         sys.stdout.flush()
         return code
 

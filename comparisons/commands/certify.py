@@ -12,9 +12,17 @@ import endoflow
 from comparisons.commands.options import common_settings
 from comparisons.errors import IO_FAILURE, StudyError, shown
 from comparisons.files import write_json
-from comparisons.measures.certificate import certificate, in_words, layer_parts, sharp_parts
+from comparisons.studies.certification import (
+    THICKNESS_RATIO,
+    certificate,
+    denser_settings,
+    finer_settings,
+    in_words,
+    layer_parts,
+    sharp_parts,
+    thinner_settings,
+)
 from comparisons.studies.members import checked_member
-from comparisons.studies.refined_runs import THICKNESS_RATIO, denser_settings, finer_settings, thinner_settings
 from comparisons.studies.study import Study
 
 

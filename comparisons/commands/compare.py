@@ -10,9 +10,9 @@ import endoflow
 from comparisons.drawing import plots, style
 from comparisons.errors import shown
 from comparisons.files import require_writable, write_json, write_text
+from comparisons.measures.along import side_by_side
 from comparisons.measures.metrics import compare_runs
-from comparisons.measures.stationary import side_by_side
-from comparisons.page.report import report_html
+from comparisons.page.comparison_page import report_html
 
 
 def write_comparison(a, b, output):

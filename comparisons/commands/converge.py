@@ -9,12 +9,12 @@ import sys
 
 import endoflow
 from comparisons.commands.options import common_settings, output_directory
-from comparisons.drawing import study_plots
 from comparisons.errors import BAD_INPUT, RUN_FAILED, StudyError, shown
 from comparisons.files import write_json, write_table, write_text
 from comparisons.measures.convergence import DiffuseRun, study_metrics, table
 from comparisons.measures.metrics import flat_parameters
-from comparisons.page.study_report import convergence_html
+from comparisons.page import convergence_page
+from comparisons.page.convergence_page import convergence_html
 from comparisons.studies.members import checked_member, load_run, resolved_parameters, settings_of
 from comparisons.studies.ranges import positive_numbers
 from comparisons.studies.study import Study
@@ -70,7 +70,7 @@ class Convergence(Study):
 
     def page(self, found):
         sharp, kept, metrics = found
-        drawn = study_plots.write_all(sharp, kept, metrics, self.output)
+        drawn = convergence_page.write_all(sharp, kept, metrics, self.output)
         case = flat_parameters(self.sharp.parameters)
         shared = {key: value for key, value in case.items() if key not in self.diffuse[0].values}
         write_text(self.output / "report.html", convergence_html(metrics, case["case.name"], shared, drawn, self.output))

@@ -8,19 +8,17 @@ again to continue).
 import sys
 from pathlib import Path
 
-from comparisons.drawing import inference_plots
 from comparisons.errors import BAD_INPUT, StudyError
 from comparisons.files import write_json, write_text
-from comparisons.inference import pipeline
+from comparisons.inference import page, pipeline
 from comparisons.inference.calibration import calibration
 from comparisons.inference.problem import Problem
 from comparisons.inference.results import bands, fit_results, head, runs_entry, warnings, write_tables
 from comparisons.inference.sensitivity import indices
 from comparisons.inference.simulator import Simulator, check_limits, resolved
 from comparisons.inference.study_file import read_study
-from comparisons.measures.basis import common_basis
 from comparisons.measures.metrics import flat_parameters
-from comparisons.page.inference_page import inference_html
+from comparisons.measures.words import common_basis
 from comparisons.studies.members import parameter_units, records_of
 from comparisons.studies.study import Study
 
@@ -60,15 +58,15 @@ class Inference(Study):
             results |= fit_results(problem, inference, self.units)
             found = bands(problem, inference)
             write_tables(problem, inference, found, output)
-            self.drawn |= inference_plots.write_fit(problem, inference, results, found, output)
+            self.drawn |= page.write_fit(problem, inference, results, found, output)
         if options.calibrate or options.sensitivity:
             trained = pipeline.over_priors(problem, simulator, self.say)
         if options.calibrate:
             results["calibration"] = calibration(problem, simulator, trained, options.calibrate, options.truth, self.say)
-            self.drawn |= inference_plots.write_calibration(results["calibration"], output)
+            self.drawn |= page.write_calibration(results["calibration"], output)
         if options.sensitivity:
             results["sensitivity"] = indices(problem, trained, problem.study.seed)
-            self.drawn |= inference_plots.write_sensitivity(results["sensitivity"], output)
+            self.drawn |= page.write_sensitivity(results["sensitivity"], output)
         results["runs"] = runs_entry(simulator)
         results["warnings"] = warnings(results)
         write_json(output / "infer.json", results)
@@ -78,7 +76,7 @@ class Inference(Study):
         flat = flat_parameters(self.problem.parameters)
         flat = {key: value for key, value in flat.items() if not key.startswith("phase_field.")}
         basis, path = common_basis(records_of(self.simulator.members.values())), self.output / "report.html"
-        write_text(path, inference_html(results, flat, basis, self.drawn, self.output))
+        write_text(path, page.inference_html(results, flat, basis, self.drawn, self.output))
         for warning in results["warnings"]:
             print(f"endoflow infer: warning: {warning}", file=sys.stderr)
         return [*summary_lines(results), f"report  {path}"]

@@ -7,11 +7,10 @@ run failed; 4 input or output; 130 or 143 interrupted (run it again to continue)
 
 import endoflow
 from comparisons.commands.options import common_settings, output_directory, require_apart
-from comparisons.drawing import map_plots
 from comparisons.errors import BAD_INPUT, RUN_FAILED, StudyError, shown
 from comparisons.files import write_table, write_text
-from comparisons.measures.basis import common_basis
-from comparisons.page.map_page import map_html
+from comparisons.measures.words import common_basis
+from comparisons.page import map_page
 from comparisons.studies.members import checked_member, directory_name, parameter_units, read_record, records_of, settings_of
 from comparisons.studies.outcome_map import boundaries, outcome_of, traced
 from comparisons.studies.ranges import two_intervals
@@ -86,9 +85,9 @@ class OutcomeMap(Study):
     def page(self, lines):
         rows, keys, output, full = self.rows, self.keys, self.output, (self.extent + 1) ** 2
         labels = [f"{key} ({self.units[key]})" if key in self.units else key for key in keys]
-        drawn = map_plots.write_all(rows, lines, self.folds, keys, labels, output)
+        drawn = map_page.write_all(rows, lines, self.folds, keys, labels, output)
         basis = common_basis(records_of(self.all))
-        write_text(output / "report.html", map_html(rows, lines, self.folds, keys, full, basis, drawn, output))
+        write_text(output / "report.html", map_page.map_html(rows, lines, self.folds, keys, full, basis, drawn, output))
         outcomes = [row["outcome"] for row in rows]
         counts = ", ".join(f"{outcomes.count(name)} {name}" for name in dict.fromkeys(outcomes))
         return [

@@ -3,6 +3,7 @@
 import argparse
 import json
 import sys
+from collections import namedtuple
 from pathlib import Path
 
 from comparisons.errors import BAD_INPUT, StudyError
@@ -16,9 +17,9 @@ AGAIN = "Finished runs are not repeated and interrupted ones are continued when 
 
 def parsed(name, arguments):
     """The command line of a command (a key of COMMANDS) as a namespace; ends the program as argparse does."""
-    description, add_options = COMMANDS[name]
-    parser = Parser(prog=f"endoflow {name}", description=description, allow_abbrev=False)
-    add_options(parser)
+    command = COMMANDS[name]
+    parser = Parser(prog=f"endoflow {name}", description=command.description, allow_abbrev=False)
+    command.options(parser)
     return parser.parse_args(arguments)
 
 
@@ -213,20 +214,22 @@ def sweep(parser):
     how.add_argument("--collect", action="store_true", help="make the table and plots of what is there; run nothing")
 
 
-#: {command: (what it does, its options)}. Each is a module beside this one, whose run(options) returns the exit code.
+Command = namedtuple("Command", "description options place")
+
+#: {command: (what it does, its options, the module beside this one and its function, which returns the exit code)}.
 COMMANDS = {
-    "certify": ("Run a case and certify its numbers.", certify),
-    "compare": ("Compare two finished runs.", compare),
-    "converge": ("Compare phase-field runs of decreasing ε with the sharp membrane.", converge),
-    "sweep": ("Run a case with many values of some parameters.", sweep),
-    "reproduce": ("Reproduce figures and tables of the paper.", reproduce),
-    "movie": ("Make a film of a run, or of a branch of stationary shapes (needs ffmpeg).", movie),
-    "revolve": ("Revolve a run's membrane for ParaView.", revolve),
-    "report": ("Make a page of one run.", report),
-    "infer": ("Infer parameters from data: best fit, posterior, what the data separate.", infer),
-    "crate": ("Describe a run's directory for archives (RO-Crate).", crate),
-    "map": ("Trace where the outcomes of runs change over two parameters.", outcome_map),
-    "modes": ("Draw the modes that endoflow-modes has computed.", modes),
+    "certify": Command("Run a case and certify its numbers.", certify, "certify.run"),
+    "compare": Command("Compare two finished runs.", compare, "compare.run"),
+    "converge": Command("Compare phase-field runs of decreasing ε with the sharp membrane.", converge, "converge.run"),
+    "sweep": Command("Run a case with many values of some parameters.", sweep, "sweep.run"),
+    "reproduce": Command("Reproduce figures and tables of the paper.", reproduce, "reproduce.run"),
+    "movie": Command("Make a film of a run, or of a branch of stationary shapes (needs ffmpeg).", movie, "one_run.movie"),
+    "revolve": Command("Revolve a run's membrane for ParaView.", revolve, "one_run.revolve"),
+    "report": Command("Make a page of one run.", report, "one_run.report"),
+    "infer": Command("Infer parameters from data: best fit, posterior, what the data separate.", infer, "infer.run"),
+    "crate": Command("Describe a run's directory for archives (RO-Crate).", crate, "one_run.crate"),
+    "map": Command("Trace where the outcomes of runs change over two parameters.", outcome_map, "map.run"),
+    "modes": Command("Draw the modes that endoflow-modes has computed.", modes, "one_run.modes"),
 }
 
 

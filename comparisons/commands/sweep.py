@@ -8,11 +8,10 @@ import sys
 from dataclasses import replace
 
 from comparisons.commands.options import ENGINES, common_settings, output_directory, require_apart
-from comparisons.drawing import sweep_plots
 from comparisons.errors import shown
 from comparisons.files import write_table, write_text
-from comparisons.measures.basis import common_basis
-from comparisons.page.study_report import sweep_html
+from comparisons.measures.words import common_basis
+from comparisons.page import sweep_page
 from comparisons.studies.members import checked_member, directory_name, parameter_units, records_of, settings_of
 from comparisons.studies.ranges import combinations, parsed_variation
 from comparisons.studies.slurm import write_script
@@ -59,9 +58,9 @@ class Sweep(Study):
             print(f"endoflow sweep: warning: {mixed}", file=sys.stderr)
         keys, basis = [*self.all[0].values], common_basis(records_of(self.all))
         used = dict.fromkeys(member.parameters["membrane"]["curvature_convention"] for member in self.all)
-        drawn = sweep_plots.write_all(rows, keys, self.units, self.output)
+        drawn = sweep_page.write_all(rows, keys, self.units, self.output)
         path = self.output / "report.html"
-        write_text(path, sweep_html(rows, keys, " and ".join(used), basis, drawn, self.output))
+        write_text(path, sweep_page.sweep_html(rows, keys, " and ".join(used), basis, drawn, self.output))
         states = [row["state"] for row in rows]
         counts = ", ".join(f"{states.count(state)} {state}" for state in dict.fromkeys(states))
         return [f"runs    {counts}", f"table   {shown(self.output / 'sweep.csv')}", f"report  {shown(path)}"]

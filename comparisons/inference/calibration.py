@@ -13,11 +13,10 @@ from scipy.stats import binom, chisquare
 
 import endoflow
 from comparisons.errors import BAD_INPUT, StudyError
-from comparisons.inference.batch import batch_of
 from comparisons.inference.best_fit import prior_precision
-from comparisons.inference.course import CourseError, course_of
+from comparisons.inference.course import CourseError, batch_of, course_of
+from comparisons.inference.emulator import slopes
 from comparisons.inference.sampling import Density, ensemble, highest_density_level
-from comparisons.inference.training import slopes
 
 #: Samples among which a true value is ranked, and groups of ranks.
 SAMPLES, GROUPS = 99, 10

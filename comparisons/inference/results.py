@@ -14,7 +14,7 @@ infer.json:
                           is logarithmic
     fit                   {chi_square, degrees_of_freedom, p_value, evaluations, outcome, data, outside}: `outside` data have no
                           counterpart in the run; those without any number there count neither for χ² nor for the degrees
-    directions            [{combination, deviation, shrinkage, verdict, vector}], see comparisons/inference/identifiability.py
+    directions            [{combination, deviation, shrinkage, verdict, vector}], see comparisons/inference/sensitivity.py
     posterior             {samples, effective, autocorrelation, acceptance, converged, budding_time_us: {median, low, high} or null}
     emulator              {degree, runs, excluded, error, check: {size, worst, unlike, runs}, crowded}: errors in those of the data
     calibration           see comparisons/inference/calibration.py; only with --calibrate. truth: the directory of --truth, or null
@@ -29,10 +29,9 @@ import numpy as np
 from scipy.stats import chi2
 
 from comparisons.files import write_table
-from comparisons.inference.batch import batch_of, values_at, within_course
-from comparisons.inference.course import BUDDED
-from comparisons.inference.identifiability import directions
-from comparisons.inference.study_keys import QUANTITIES
+from comparisons.inference.course import BUDDED, batch_of, values_at, within_course
+from comparisons.inference.sensitivity import directions
+from comparisons.inference.study_keys import MEASURABLE
 
 #: Samples in posterior.csv.
 WRITTEN_SAMPLES = 4000
@@ -165,7 +164,7 @@ def bands(problem, inference):
     batch = inference.trained.batch(x[:, : problem.engine_count])
     factor, offset = problem.clocks(x)
     found = {}
-    for column in QUANTITIES:
+    for column in MEASURABLE:
         times = [datum.time for datum in problem.data if datum.column == column]
         if not times:
             continue

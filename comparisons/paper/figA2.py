@@ -5,11 +5,10 @@ import csv
 import numpy as np
 
 from comparisons.drawing.plots import legend_on_top
-from comparisons.drawing.pyplot import plt
+from comparisons.drawing.style import plt
+from comparisons.paper.figures import COLOURS, history_figure
+from comparisons.paper.item import BOUNDARY_INTEGRAL, Printed, Result, Wanted, is_run, text, value_at
 from comparisons.studies.members import answer
-
-from .histories import COLOURS, history_figure
-from .item import BOUNDARY_INTEGRAL, Printed, Result, Wanted, is_run, text, value_at
 
 TITLE = "Fig. A.2: constitutive laws"
 

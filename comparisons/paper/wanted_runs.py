@@ -9,7 +9,6 @@ from comparisons import ROOT
 from comparisons.errors import StudyError
 from comparisons.paper import item_module
 from comparisons.paper.item import NotRun, ended_as
-from comparisons.studies.cost import expected_seconds
 from comparisons.studies.members import (
     FINISHED,
     checked_member,
@@ -21,7 +20,7 @@ from comparisons.studies.members import (
     settings_of,
     work_left,
 )
-from comparisons.studies.progress import duration
+from comparisons.studies.progress import duration, expected_seconds
 from comparisons.studies.ranges import RangeError
 
 #: Bytes; programs and archives append words of their own.

@@ -12,19 +12,14 @@ import math
 
 import numpy as np
 
+from comparisons.measures.quantities import BUDDING, SWEPT
 from comparisons.studies.members import covers, differing_parameters, read_record
 from endoflow import EndoflowError
 from endoflow.alarms import alarms_of
 from endoflow.history import read_history
 
 #: Columns of the table that come from the last row of history.csv: {column: history column}.
-FINAL = {
-    "neck_radius_nm": "neck_radius_nm",
-    "lateral_diameter_nm": "bud_diameter_nm",
-    "height_nm": "bud_height_nm",
-    "area_nm2": "membrane_area_nm2",
-    "energy_pN_nm": "bending_energy_pN_nm",
-}
+FINAL = {column: quantity.column for column, quantity in SWEPT.items() if quantity.column != BUDDING}
 
 
 def row(member, outcome=None):
@@ -53,7 +48,7 @@ def row(member, outcome=None):
         "state": state,
         "exit_reason": reason,
         "time_us": time,
-        "budding_time_us": budding_time(found, end),
+        BUDDING: budding_time(found, end),
         **final_values(member.directory / "history.csv" if record else None, end),
         "alarms": "; ".join(alarm.name for alarm in alarms_of(found) if alarm.time <= end) or None,
         "program": "; ".join(programs(found)) or None,

@@ -11,7 +11,7 @@ import numpy as np
 from comparisons.commands import reproduce
 from comparisons.commands.options import parsed
 from comparisons.errors import StudyError
-from comparisons.paper import OTHER_NAMES, branches, derenyi2002, hassinger2017, item_module, juelicher1996
+from comparisons.paper import OTHER_NAMES, derenyi2002, hassinger2017, item, item_module, juelicher1996
 from scratch import scratch_directory
 
 
@@ -29,7 +29,7 @@ class ReadOff(unittest.TestCase):
             "bud_height_nm": np.array([10.0, 50.0, 80.0, 100.0]),
             "neck_radius_nm": np.array([np.nan, np.nan, 20.0, 10.0]),
         }
-        with mock.patch.object(hassinger2017, "followed", return_value=branches.Branch(columns, [80.0, 70.0], "here")):
+        with mock.patch.object(hassinger2017, "followed", return_value=item.Branch(columns, [80.0, 70.0], "here")):
             result = hassinger2017.result({}, False)
         self.assertIn("folds at 20106.2, 15393.8 nm²", result.printed[0].ours[""])  # π 80², π 70²
         self.assertIn("20106.2", result.printed[-1].ours[""])
@@ -51,7 +51,7 @@ class ReadOff(unittest.TestCase):
         for name in ("bud_height_nm", "bending_energy_pN_nm", "line_energy_pN_nm"):
             columns[name] = np.linspace(0, 1000, 202)
         folds = ([6.0 - 0.01, 3.0], [6.0 - 0.04, 3.0])
-        found = [branches.Branch(columns, [fold / per_line_energy for fold in of], "here") for of in folds]
+        found = [item.Branch(columns, [fold / per_line_energy for fold in of], "here") for of in folds]
         with mock.patch.object(juelicher1996, "followed", side_effect=found):
             result = juelicher1996.result({}, False)
         self.assertEqual(result.printed[0].ours[""], "6")
@@ -70,7 +70,7 @@ class ReadOff(unittest.TestCase):
             "bud_height_nm": length,
             "membrane_area_nm2": 2 * math.pi * 22.0 * length,
         }
-        branch = branches.Branch(columns, [], "here")
+        branch = item.Branch(columns, [], "here")
         with mock.patch.object(derenyi2002, "followed", return_value=branch):
             ours = [one.ours[""] for one in derenyi2002.result({}, False).printed]
         self.assertEqual(ours[:3], ["28.0992589 pN", "22 nm", "20.0 % above"])
@@ -85,14 +85,14 @@ class Followed(unittest.TestCase):
     """The program's own branches."""
 
     def test_a_short_branch(self):
-        branch = branches.followed("tube", "membrane.pole_force", 10, {"domain.height": "700"})
+        branch = item.followed("tube", "membrane.pole_force", 10, {"domain.height": "700"})
         self.assertAlmostEqual(branch.columns["pole_force_pN"][-1], 10, places=6)
         self.assertEqual(branch.folds, [])
         self.assertIn("target", branch.ended)
 
     def test_what_is_refused(self):
         with self.assertRaises(StudyError):
-            branches.followed("tube", "membrane.pole_forse", 10, {})
+            item.followed("tube", "membrane.pole_forse", 10, {})
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ import unittest
 import locations
 
 
-GROUPS = ("measures", "studies", "inference", "drawing", "page", "paper", "commands")
+GROUPS = ("measures", "studies", "drawing", "page", "inference", "paper", "commands")
 SOURCES = locations.ROOT / "comparisons"
 
 
