@@ -6,6 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "command_line.h"
 #include "laws.h"
@@ -26,39 +29,6 @@ namespace endoflow::cli {
 namespace {
 
 const std::vector<std::string> engines{"boundary-integral", "phase-field"};
-const std::vector<std::string> commands{"run",     "compare", "converge", "sweep", "reproduce", "movie",
-                                        "revolve", "report",  "modes",    "laws",  "statics",   "params",
-                                        "check",   "summary", "infer",    "crate", "map"};
-
-/// Commands that are Python: modules in comparisons/commands/.
-const std::vector<std::string> scripts{"compare", "converge", "sweep", "reproduce", "movie",
-                                       "revolve", "report",   "infer", "crate",     "map"};
-
-constexpr const char* overview = R"(endoflow: endocytosis in viscous fluid, computed by two independent engines
-
-  endoflow run boundary-integral CASE.toml [-o DIR] [--set section.key=value]... [--until T] [--restart]
-  endoflow run phase-field       CASE.toml [the same]     (mpirun -n N endoflow run phase-field ... uses N processes)
-  endoflow run ENGINE CASE.toml --certify                  the run and more accurate ones: value ± error
-  endoflow compare DIR_A DIR_B [-o DIR]                    two runs: metrics.json, plots, report.html
-  endoflow converge CASE.toml --epsilon E1,E2,...          phase field against sharp membrane as the layer gets thin
-  endoflow sweep CASE.toml --vary KEY=FIRST:LAST:STEP --engine ENGINE [-o DIR] [--jobs N]      many runs of one case
-  endoflow reproduce ITEM [--quick|--full] [-o DIR] [--jobs N]     the paper: table2, fig3 ... fig7, figA2, attribution ... or all
-  endoflow map CASE.toml --vary KEY=LOW:HIGH --vary KEY=LOW:HIGH [-o DIR]   where outcomes change over two parameters
-  endoflow infer STUDY.toml [-o DIR] [--calibrate N] [--sensitivity]       parameters from measured or simulated data
-  endoflow report DIR [-o DIR]                             a page of one run: plots, numbers, alarms, provenance
-  endoflow crate DIR [--license URL]                       a run's directory described for archives (RO-Crate)
-  endoflow movie DIR [-o FILE.mp4|FILE.gif]                a run as a film (needs ffmpeg)
-  endoflow revolve DIR [--angle DEGREES]                   a run's membrane as surfaces in space, for ParaView
-  endoflow modes DIR [--modes 1:8] [--times N]             a sharp run's azimuthal modes: does the bud stay round?
-  endoflow statics CASE.toml [-o DIR] [--continue-in KEY=END]               stationary shapes of the sharp membrane
-  endoflow params [SECTION] [--markdown|--toml|--json]     every parameter: default, unit, bounds, meaning
-  endoflow laws [CASE.toml] [--set section.key=value]...   the constitutive laws b(c), H0(c) as CSV
-  endoflow check CASE.toml [--set section.key=value]...    validate a case file; --json prints all its parameters
-  endoflow summary DIR                                     one screen about a run
-  endoflow help [COMMAND]                                  this text, or a command's own options
-  endoflow --version
-)";
-
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
     const auto nearest = nearest_word(word, known);
     return nearest ? fmt::format("did you mean '{}'?", *nearest) : fmt::format("known: {}", fmt::join(known, ", "));
@@ -151,10 +121,12 @@ int summary(int argc, char** argv) {
 
 int dispatch(int argc, char** argv);
 
+std::string overview();
+
 /// `endoflow help run` is `endoflow run --help`.
 int help(int argc, char** argv) {
     if (argc < 2) {
-        fmt::print("{}", overview);
+        fmt::print("{}", overview());
         return 0;
     }
     std::string option = "--help";
@@ -162,27 +134,107 @@ int help(int argc, char** argv) {
     return dispatch(3, words.data());
 }
 
+/// A module of comparisons/commands/, or what its options.py says becomes of the command.
+int script(int argc, char** argv) {
+    become_python("comparisons", {argv, argv + argc});
+}
+
+int statics(int argc, char** argv) {
+    become_program("endoflow-statics", {argv + 1, argv + argc});
+}
+
+int modes(int argc, char** argv) {
+    become_program("endoflow-modes", {argv + 1, argv + argc});
+}
+
+struct Command {
+    std::string name;
+    /// What becomes of it; its arguments begin with its name.
+    int (*call)(int argc, char** argv);
+    /// Its lines of the overview: what follows its name, and what it does.
+    std::vector<std::pair<std::string, std::string>> lines;
+};
+
+/// Every command, in the order of the overview. Dispatch, completions and manual page come from here as well.
+const std::vector<Command>& commands() {
+    static const std::vector<Command> table{
+        {"run",
+         run,
+         {{"boundary-integral CASE.toml [-o DIR] [--set section.key=value]... [--until T] [--restart]", ""},
+          {"phase-field CASE.toml [the same]", "(mpirun -n N endoflow run phase-field ... uses N processes)"},
+          {"ENGINE CASE.toml --certify", "the run and more accurate ones: value ± error"}}},
+        {"compare", script, {{"DIR_A DIR_B [-o DIR]", "two runs: metrics.json, plots, report.html"}}},
+        {"converge",
+         script,
+         {{"CASE.toml --epsilon E1,E2,...", "phase field against sharp membrane as the layer gets thin"}}},
+        {"sweep",
+         script,
+         {{"CASE.toml --vary KEY=FIRST:LAST:STEP --engine ENGINE [-o DIR] [--jobs N]", "many runs of one case"}}},
+        {"reproduce",
+         script,
+         {{"ITEM [--quick|--full] [-o DIR] [--jobs N]",
+           "the paper: table2, fig3 ... fig7, figA2, attribution ... or all"}}},
+        {"map",
+         script,
+         {{"CASE.toml --vary KEY=LOW:HIGH --vary KEY=LOW:HIGH [-o DIR]", "where outcomes change over two parameters"}}},
+        {"infer",
+         script,
+         {{"STUDY.toml [-o DIR] [--calibrate N] [--sensitivity]", "parameters from measured or simulated data"}}},
+        {"report", script, {{"DIR [-o DIR]", "a page of one run: plots, numbers, alarms, provenance"}}},
+        {"crate", script, {{"DIR [--license URL]", "a run's directory described for archives (RO-Crate)"}}},
+        {"movie", script, {{"DIR [-o FILE.mp4|FILE.gif]", "a run as a film (needs ffmpeg)"}}},
+        {"revolve", script, {{"DIR [--angle DEGREES]", "a run's membrane as surfaces in space, for ParaView"}}},
+        {"modes",
+         modes,
+         {{"DIR [--modes 1:8] [--times N]", "a sharp run's azimuthal modes: does the bud stay round?"}}},
+        {"statics",
+         statics,
+         {{"CASE.toml [-o DIR] [--continue-in KEY=END]", "stationary shapes of the sharp membrane"}}},
+        {"params",
+         params,
+         {{"[SECTION] [--markdown|--toml|--json]", "every parameter: default, unit, bounds, meaning"}}},
+        {"laws", laws, {{"[CASE.toml] [--set section.key=value]...", "the constitutive laws b(c), H0(c) as CSV"}}},
+        {"check",
+         check,
+         {{"CASE.toml [--set section.key=value]...", "validate a case file; --json prints all its parameters"}}},
+        {"summary", summary, {{"DIR", "one screen about a run"}}},
+        {"help", help, {{"[COMMAND]", "this text, or a command's own options"}}},
+    };
+    return table;
+}
+
+std::string overview() {
+    std::string text = "endoflow: endocytosis in viscous fluid, computed by two independent engines\n\n";
+    for (const Command& command : commands())
+        for (const auto& [words, what] : command.lines)
+            text += what.empty() ? fmt::format("  endoflow {} {}\n", command.name, words)
+                                 : fmt::format("  endoflow {:<46}  {}\n", command.name + " " + words, what);
+    return text + "  endoflow --version\n";
+}
+
+std::vector<std::string> command_names() {
+    std::vector<std::string> names;
+    for (const Command& command : commands()) names.push_back(command.name);
+    return names;
+}
+
 int dispatch(int argc, char** argv) {
-    const std::string command = argc > 1 ? argv[1] : "--help";
-    if (command == "--help" || command == "-h") {
-        fmt::print("{}", overview);
+    const std::string name = argc > 1 ? argv[1] : "--help";
+    if (name == "--help" || name == "-h") {
+        fmt::print("{}", overview());
         return 0;
     }
-    if (command == "--version") {
+    if (name == "--version") {
         fmt::print("endoflow {} ({})\n", version(), git_description());
         return 0;
     }
-    if (command == "run") return run(argc - 1, argv + 1);
-    if (std::find(scripts.begin(), scripts.end(), command) != scripts.end())
-        become_python("comparisons", {argv + 1, argv + argc});
-    if (command == "statics") become_program("endoflow-statics", {argv + 2, argv + argc});
-    if (command == "help") return help(argc - 1, argv + 1);
-    if (command == "modes") become_program("endoflow-modes", {argv + 2, argv + argc});
-    if (command == "laws") return laws(argc - 1, argv + 1);
-    if (command == "params") return params(argc - 1, argv + 1);
-    if (command == "check") return check(argc - 1, argv + 1);
-    if (command == "summary") return summary(argc - 1, argv + 1);
-    throw InputError(fmt::format("command line: unknown command '{}'; {}", command, did_you_mean(command, commands)));
+    if (name == "--describe") {  // for completions and manual page
+        fmt::print("{}\n", fmt::join(command_names(), "\n"));
+        return 0;
+    }
+    for (const Command& command : commands())
+        if (command.name == name) return command.call(argc - 1, argv + 1);
+    throw InputError(fmt::format("command line: unknown command '{}'; {}", name, did_you_mean(name, command_names())));
 }
 
 }  // namespace

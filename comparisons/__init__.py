@@ -2,12 +2,13 @@
 
 Groups, each of which imports only from those before it (tests/comparisons/test_layout.py):
 
-    measures    numbers from runs: distances, metrics, convergence, fits
-    studies     many runs of one case: members, their state, the runner, tables, Slurm
-    drawing     plots, pictures and films
-    page        report.html
+    measures    numbers from runs: the table of quantities, distances, metrics, convergence, fits
+    studies     many runs of one case: what a study is, members, their state, the runner, tables, Slurm
+    drawing     plots, pictures, films, surfaces for ParaView
+    page        report.html: what all pages have, and the plots and the page of each kind of result
+    inference   parameters from data, from the study file to its page
     paper       the paper's figures and tables, one module each
-    commands    one module for each command, which print what came of it
+    commands    what becomes of each command; options.py lists them
 """
 
 from pathlib import Path

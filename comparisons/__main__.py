@@ -9,7 +9,7 @@ ROOT = Path(__file__).resolve().parents[1]
 # Python put this directory in front; the package itself and the reader lie beside it.
 sys.path[0:1] = [str(ROOT), str(ROOT / "python")]
 
-from comparisons.commands.guard import call  # noqa: E402
+from comparisons.commands import call  # noqa: E402
 
 
 def drop_unwritable_output():

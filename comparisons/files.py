@@ -1,46 +1,13 @@
-"""Files and their names: names may hold any byte, and an error names its file.
+"""Files that commands write. An error names its file, also one met while writing, where Python has forgotten the name."""
 
-A full disk is met while writing, where Python has forgotten the name.
-"""
-
-import codecs
 import contextlib
+import csv
 import errno
-import io
 import json
 import os
-import re
+from decimal import Decimal, InvalidOperation
 
-CONTROLS = re.compile("[\x00-\x1f\x7f]")
-
-#: Bytes of a file's name that are no UTF-8, as Python holds them.
-FOREIGN_BYTES = re.compile("[\udc80-\udcff]")
-
-
-def shown(path):
-    """A path, or a text with paths in it, as one line: control characters are written out, as \\u000a."""
-    return CONTROLS.sub(lambda found: f"\\u{ord(found[0]):04x}", str(path))
-
-
-def printable(text):
-    """Text (or a path) in characters alone: bytes of names that are none are written out, as \\xff."""
-    return FOREIGN_BYTES.sub(lambda found: f"\\x{ord(found[0]) - 0xDC00:02x}", str(text))
-
-
-def take_any_name(*streams):
-    """Let text streams take names of files as they are, byte for byte, and write out what their encoding lacks."""
-
-    def kept(error):
-        part = error.object[error.start : error.end]
-        foreign = FOREIGN_BYTES.fullmatch(part[0])
-        if foreign:
-            return bytes([ord(part[0]) - 0xDC00]), error.start + 1
-        return part.encode("ascii", "backslashreplace").decode("ascii"), error.end
-
-    codecs.register_error("names", kept)
-    for stream in streams:
-        if isinstance(stream, io.TextIOWrapper):  # a text in memory has no encoding
-            stream.reconfigure(errors="names")
+from comparisons.errors import printable
 
 
 @contextlib.contextmanager
@@ -72,3 +39,28 @@ def write_text(path, text):
 def write_json(path, content):
     """Write a dict as JSON; NaN is an error."""
     write_text(path, json.dumps(content, indent=2, allow_nan=False) + "\n")
+
+
+def write_table(path, rows):
+    """Write rows, list of {column: value}, as CSV."""
+    with named(path), open(path, "w", newline="", encoding="utf-8", errors="surrogateescape") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(rows[0])
+        writer.writerows([cell(value) for value in entry.values()] for entry in rows)
+
+
+def cell(value):
+    """A value as text: numbers with 12 digits, None as nothing, an apostrophe before what spreadsheets would compute."""
+    if value is None:
+        return ""
+    text = f"{value:.12g}" if isinstance(value, float) else str(value)
+    return f"'{text}" if text.startswith(("=", "+", "-", "@")) and as_number(text) is None else text
+
+
+def as_number(text):
+    """The finite number a text spells, or None."""
+    try:
+        number = Decimal(text)
+    except InvalidOperation:
+        return None
+    return float(number) if number.is_finite() else None

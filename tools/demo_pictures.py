@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 sys.path[:0] = [str(ROOT), str(ROOT / "python")]
 
-from comparisons.commands.guard import guarded  # noqa: E402
+from comparisons.commands import guarded  # noqa: E402
 
 
 def main(arguments):

@@ -6,101 +6,81 @@ line or parameter; 3 a run failed; 4 input or output; 130 or 143 interrupted (ru
 
 import json
 import os
-import sys
 from pathlib import Path
 
-from comparisons.errors import IO_FAILURE, RUN_FAILED, StudyError
-from comparisons.files import shown, write_json
-from comparisons.studies.study import lock, program, report_failures, run_members
-
-from .options import case_parser, common_settings
-
-
-def parsed(arguments):
-    """The command line as a namespace: ENGINE, then what `endoflow run ENGINE` takes."""
-    parser = case_parser("run ENGINE", "Run a case and certify its numbers.")
-    parser.add_argument("engine", choices=("boundary-integral", "phase-field"))
-    parser.add_argument("--certify", action="store_true", help="what brought you here")
-    parser.add_argument("--restart", action="store_true", help="no matter: what is there is continued in any case")
-    # The engine stands in front of the case.
-    return parser.parse_args([*arguments[1:], *arguments[:1]])
-
-
-def base_member(options, output):
-    """The run to certify, a members.Member."""
-    from comparisons.studies.members import Member, resolved_parameters
-
-    settings = tuple(common_settings(options))
-    parameters = resolved_parameters(program(), options.case, settings)
-    return Member("run", options.case, output, options.engine, settings, {}, parameters)
+import endoflow
+from comparisons.commands.options import common_settings
+from comparisons.errors import IO_FAILURE, StudyError, shown
+from comparisons.files import write_json
+from comparisons.studies.certification import (
+    THICKNESS_RATIO,
+    certificate,
+    denser_settings,
+    finer_settings,
+    in_words,
+    layer_parts,
+    sharp_parts,
+    thinner_settings,
+)
+from comparisons.studies.members import checked_member
+from comparisons.studies.study import Study
 
 
-def refined_members(member):
-    """The runs that certify a finished one."""
-    from comparisons.studies.members import Member, read_record, resolved_parameters
-    from comparisons.studies.refined_runs import denser_settings, finer_settings, thinner_settings
+class Certification(Study):
+    """A run and what certifies it, which is the study's directory."""
 
-    notes = read_record(member.directory).get("notes", {})
-    wanted = {"finer": finer_settings(member.engine, member.parameters, notes)}
-    if member.engine == "phase-field":
-        wanted["thinner"] = thinner_settings(member.parameters)
-    else:
-        wanted["denser"] = denser_settings(member.parameters, notes)
-    members = []
-    for name, changes in wanted.items():
-        settings = (*member.settings, *changes)
-        parameters = resolved_parameters(program(), member.case, settings)
-        directory = member.directory / "certify" / name
-        members.append(Member(name, member.case, directory, member.engine, settings, {}, parameters))
-    return members
+    command = "run"
 
+    def members(self):
+        """The run itself."""
+        options, directory = self.options, self.output.parent
+        return [checked_member("run", options.case, directory, options.engine, common_settings(options))]
 
-def write_certificate(member, refined):
-    """Put the certificate into the run's run.json; returns it."""
-    import endoflow
-    from comparisons.measures.certificate import certificate, layer_parts, sharp_parts
-    from comparisons.studies.refined_runs import THICKNESS_RATIO
+    def evaluate(self, outcomes):
+        """The certificate, which is put into run.json; None without all runs."""
+        if self.failed:
+            return None
+        run = endoflow.load(self.output.parent)
+        self.run([*self.refined(run)])
+        if self.failed:
+            return None
+        runs = {name: endoflow.load(self.output / name) for name in self.settings(run)}
+        if run.engine == "phase-field":
+            parts = layer_parts(run, runs["finer"], runs["thinner"], THICKNESS_RATIO)
+        else:
+            parts = sharp_parts(run, runs["denser"], runs["finer"])
+        found = certificate(run, parts)
+        found["runs"] = {name: str(Path("certify") / name) for name in runs}
+        path = run.directory / "run.json"
+        beside = path.with_suffix(".json.new")
+        write_json(beside, {**json.loads(path.read_text(encoding="utf-8")), "certificate": found})
+        os.replace(beside, path)
+        return found
 
-    runs = {other.name: endoflow.load(other.directory) for other in refined}
-    run = endoflow.load(member.directory)
-    if member.engine == "phase-field":
-        parts = layer_parts(run, runs["finer"], runs["thinner"], THICKNESS_RATIO)
-    else:
-        parts = sharp_parts(run, runs["denser"], runs["finer"])
-    found = certificate(run, parts)
-    found["runs"] = {other.name: str(other.directory.relative_to(member.directory)) for other in refined}
-    path = member.directory / "run.json"
-    record = json.loads(path.read_text(encoding="utf-8"))
-    record["certificate"] = found
-    beside = path.with_suffix(".json.new")
-    write_json(beside, record)
-    os.replace(beside, path)
-    return found
+    def settings(self, run):
+        """{name: settings that a more accurate run adds} for an endoflow.Run."""
+        notes = run.record.get("notes", {})
+        finer = finer_settings(run.engine, run.parameters, notes)
+        if run.engine == "phase-field":
+            return {"finer": finer, "thinner": thinner_settings(run.parameters)}
+        return {"finer": finer, "denser": denser_settings(run.parameters, notes)}
+
+    def refined(self, run):
+        """The Members that certify a finished endoflow.Run."""
+        for name, changes in self.settings(run).items():
+            settings = (*common_settings(self.options), *changes)
+            yield checked_member(name, self.options.case, self.output / name, run.engine, settings)
+
+    def page(self, found):
+        if found is None:
+            return []
+        if not found["values"]:
+            raise StudyError(f"{self.output.parent}: the runs share no quantity that could be certified", IO_FAILURE)
+        lines = [f"{entry['title']:<14} {in_words(entry)}" for entry in found["values"].values()]
+        return [*lines, f"results in {shown(self.output.parent)}, what certifies them in {shown(self.output)}"]
 
 
 def run(options):
     """Run the command; returns its exit code."""
-    from comparisons.measures.certificate import in_words
-    from comparisons.studies.member_runner import Interruption
-
     output = options.output or Path("out") / options.case.stem / options.engine
-    member = base_member(options, output)
-    with lock(output / "certify"):
-        with Interruption() as interruption:
-            refined = []
-            outcomes = run_members([member], options, interruption)
-            if not interruption.signal and not report_failures("run", outcomes):
-                refined = refined_members(member)
-                outcomes = run_members(refined, options, interruption)
-        if interruption.signal:
-            print("endoflow run: interrupted; the same command continues", file=sys.stderr)
-            return 128 + interruption.signal
-        if not refined or report_failures("run", outcomes):
-            return RUN_FAILED
-        found = write_certificate(member, refined)
-    for entry in found["values"].values():
-        print(f"{entry['title']:<14} {in_words(entry)}")
-    if not found["values"]:
-        raise StudyError(f"{output}: the runs share no quantity that could be certified", IO_FAILURE)
-    print(f"results in {shown(output)}, what certifies them in {shown(output / 'certify')}")
-    return 0
+    return Certification(options, output / "certify").conduct()

@@ -5,39 +5,18 @@ cannot be written; 130 interrupted.
 """
 
 import sys
-from pathlib import Path
 
-from comparisons.files import require_writable, shown, write_json, write_text
-
-from .options import Parser
-
-
-def parsed(arguments):
-    """The command line as a namespace: a, b, output (Path)."""
-    parser = Parser(
-        prog="endoflow compare", description="Compare two finished runs.", allow_abbrev=False
-    )
-    parser.add_argument("a", metavar="DIR_A", type=Path, help="directory of the first run (drawn on the left)")
-    parser.add_argument("b", metavar="DIR_B", type=Path, help="directory of the second run (drawn on the right)")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
-        type=Path,
-        default=Path("comparison"),
-        help="where to write (default: %(default)s)",
-    )
-    return parser.parse_args(arguments)
+import endoflow
+from comparisons.drawing import plots, style
+from comparisons.errors import shown
+from comparisons.files import require_writable, write_json, write_text
+from comparisons.measures.along import side_by_side
+from comparisons.measures.metrics import compare_runs
+from comparisons.page.comparison_page import report_html
 
 
 def write_comparison(a, b, output):
     """Compare two run directories (Path) and write everything into the directory output (Path); returns the metrics."""
-    import endoflow
-    from comparisons.drawing import plots, style
-    from comparisons.measures.metrics import compare_runs
-    from comparisons.measures.stationary import side_by_side
-    from comparisons.page.report import report_html
-
     run_a, run_b = side_by_side(endoflow.load(a), endoflow.load(b))
     require_writable(output)
     labels = style.labels(run_a, run_b)

@@ -6,13 +6,12 @@ import subprocess
 import numpy as np
 
 from comparisons.drawing import style
+from comparisons.drawing.axes import LOG_FROM, LOG_START, half_width, vertical_range
 from comparisons.drawing.pictures import draw_membrane
-from comparisons.drawing.plots import vertical_range
-from comparisons.drawing.pyplot import plt
+from comparisons.drawing.style import plt
 from comparisons.errors import IO_FAILURE, StudyError
 from comparisons.measures.along import Along
-from comparisons.measures.extent import half_width
-from comparisons.measures.time_axis import LOG_FROM, LOG_START
+from comparisons.measures.quantities import DRAWN
 from endoflow.errors import last_word
 
 #: Pixels per inch of a frame, and share of the film that shows the time up to a little after an early budding.
@@ -82,7 +81,7 @@ class Film:
         axes, history = self.history, self.run.history
         column = "neck_radius_nm" if np.isfinite(history["neck_radius_nm"]).any() else "bud_height_nm"
         axes.plot(self.along.values, history[column], color=style.ENGINE_COLOURS["boundary-integral"][0])
-        axes.set_title(style.axis_label(column))
+        axes.set_title(DRAWN[column].label)
         axes.set(xlabel=self.along.label, ylim=(0, None))
         if self.along.is_time:
             axes.set_xlim(self.times[0], self.times[-1])

@@ -4,8 +4,8 @@ import numpy as np
 from PIL import Image
 
 from comparisons.drawing import plots, style
-from comparisons.drawing.pyplot import plt
-from comparisons.measures.extent import half_width
+from comparisons.drawing.axes import half_width, vertical_range
+from comparisons.drawing.style import plt
 from comparisons.measures.metrics import common_times
 
 #: Moments of the picture, as fractions of the later budding time (or of the common time when no run buds).
@@ -42,7 +42,7 @@ class Frame:
         self.labels = style.labels(a, b)
         self.colours = [light for light, _ in style.colours(a, b)]
         shapes = [run.shape_at(time) for time in times for run in self.runs]
-        self.z_range, self.rim = plots.vertical_range(shapes, 7.0), min(HALF_WIDTH, half_width(shapes))
+        self.z_range, self.rim = vertical_range(shapes, 7.0), min(HALF_WIDTH, half_width(shapes))
 
     def height_of(self, width):
         """Height of axes of this width, in the same unit."""

@@ -6,10 +6,9 @@ from collections import namedtuple
 import numpy as np
 from scipy.spatial import cKDTree
 
-from comparisons.drawing import plots
-from comparisons.drawing import style
-from comparisons.drawing.pyplot import plt
-from comparisons.measures.extent import half_width
+from comparisons.drawing import plots, style
+from comparisons.drawing.axes import half_width, vertical_range
+from comparisons.drawing.style import plt
 from endoflow.curves import arc_length
 
 #: Distance of arrows along the membrane, and of those in the fluid, nm.
@@ -28,7 +27,7 @@ ARROW, MUTED = "#1B222C", "#777777"
 def gallery(rows, margin=7.0):
     """A figure of panels. rows: [(row title, [Panel])]; margin: nm below and above all membranes."""
     shapes = [panel.shape for _, panels in rows for panel in panels if not isinstance(panel.shape, str)]
-    z_range = plots.vertical_range(shapes, margin) if shapes else (60.0, 140.0)
+    z_range = vertical_range(shapes, margin) if shapes else (60.0, 140.0)
     rim = half_width(shapes) if shapes else 80.0
     columns = max(len(panels) for _, panels in rows)
     width = min(3.1, 12.4 / columns)

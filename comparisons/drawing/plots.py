@@ -6,11 +6,11 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from scipy.integrate import trapezoid
 
 from comparisons.drawing import style
-from comparisons.drawing.pyplot import plt
+from comparisons.drawing.axes import half_width, time_axis, vertical_range
+from comparisons.drawing.style import plt
 from comparisons.files import named
-from comparisons.measures.extent import half_width
 from comparisons.measures.metrics import compared, concentration_profile, last_budding
-from comparisons.measures.time_axis import time_axis
+from comparisons.measures.quantities import DRAWN
 from endoflow.curves import resample
 
 #: Panels of the picture of both membranes, and spacing (nm) of the drawn curve.
@@ -70,11 +70,6 @@ def panel_times(metrics):
     wanted = np.linspace(first, min(last, 1.2 * (last_budding(metrics) or last)), PANELS + 1)[1:]
     output_times = np.array([record["time_us"] for record in compared(metrics["times"])])
     return output_times[np.unique(np.argmin(np.abs(output_times[:, None] - wanted), axis=0))]
-
-
-def vertical_range(shapes, margin):
-    """(lowest, highest) z in nm of some shapes, with a margin."""
-    return min(s.z.min() for s in shapes) - margin, max(s.z.max() for s in shapes) + margin
 
 
 def draw_half(axes, shape, side, z_range, rim, line_width):
@@ -151,6 +146,15 @@ def membranes(a, b, times, labels, colours):
     return figure
 
 
+def panels(count, height=2.6, columns=4):
+    """(figure, [axes]) with `count` panels, some in a row of this height (inches)."""
+    rows = -(-count // columns)
+    figure, grid = plt.subplots(rows, columns, figsize=(3.1 * columns, height * rows), squeeze=False, layout="constrained")
+    for axes in grid.flat[count:]:
+        axes.remove()
+    return figure, list(grid.flat[:count])
+
+
 def legend_on_top(figure, handles, texts):
     """A one-line legend above all panels."""
     strip = 0.36 / figure.get_figheight()
@@ -206,21 +210,22 @@ def concentration(a, b, times, labels, colours):
 
 
 def histories(a, b, labels, colours, time_range):
-    """Every quantity of style.HISTORY_PLOTS of both runs against time, budding marked; time_range as of time_axis()."""
-    figure, grid = plt.subplots(2, 4, figsize=(12.4, 5.2), layout="constrained")
-    for axes, (column, shown) in zip(grid.flat, style.HISTORY_PLOTS.items()):
+    """Every quantity of DRAWN of both runs against time, budding marked; time_range as of time_axis()."""
+    figure, grid = panels(len(DRAWN) + 1)
+    for axes, (column, shown) in zip(grid, DRAWN.items()):
         values = [run.history[column] * shown.factor for run in (a, b)]
         for run, value, colour, line in zip((a, b), values, colours, style.LINES):
             axes.plot(run.history["time_us"], value, color=colour, **line)
             _mark_budding(axes, run, colour)
         _set_time_axis(axes, time_range)
         _set_value_axis(axes, np.concatenate(values), shown.logarithmic)
-        axes.set_title(style.axis_label(column))
+        axes.set_title(shown.label)
         axes.set_xlabel("time (µs)")
     if np.isfinite(np.concatenate([run.history["neck_radius_nm"] for run in (a, b)])).any():
-        grid[0, 0].axhline(style.BUDDING_NECK_RADIUS, color="#888888", linewidth=0.9, linestyle=":")
-        grid[0, 0].set_ylim(bottom=0)
-    _budding_times(grid.flat[-1], (a, b), labels, colours)
+        neck = grid[list(DRAWN).index("neck_radius_nm")]
+        neck.axhline(style.BUDDING_NECK_RADIUS, color="#888888", linewidth=0.9, linestyle=":")
+        neck.set_ylim(bottom=0)
+    _budding_times(grid[-1], (a, b), labels, colours)
     _name_lines(figure, labels, colours)
     return figure
 

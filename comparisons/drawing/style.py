@@ -1,10 +1,12 @@
-"""How runs and quantities look and are called: one definition for plots and report."""
+"""How runs and quantities look and are called: one definition for plots and report. Whoever draws takes `plt` from here."""
 
-from collections import namedtuple
+import warnings
 
+import matplotlib
+import matplotlib.pyplot as plt  # noqa: F401
 from matplotlib.colors import LinearSegmentedColormap
 
-from comparisons.files import printable, shown
+from comparisons.errors import printable, shown
 
 #: Colour of each engine (Okabe and Ito, safe for colour-blind readers) on light and on dark ground.
 ENGINE_COLOURS = {"boundary-integral": ("#0072B2", "#4DB2EC"), "phase-field": ("#D55E00", "#FF9248")}
@@ -13,6 +15,12 @@ ENGINE_NAMES = {"boundary-integral": "boundary integral", "phase-field": "phase 
 
 #: Lines of run A and run B: a thin dashed line on a thick one, so that both show where they coincide, and without colour.
 LINES = ({"linestyle": "-", "linewidth": 2.8}, {"linestyle": (0, (4, 2)), "linewidth": 1.6})
+
+#: Marker and line of each engine: both show where they coincide.
+LOOKS = {
+    "boundary-integral": {"marker": "o", "markersize": 7, **LINES[0]},
+    "phase-field": {"marker": "s", "markersize": 4, **LINES[1]},
+}
 
 #: Concentration c from 0 (bare membrane) to 1 (coated), on light and on dark ground. Lightness is monotone in c.
 CONCENTRATION_STOPS = ("#A9B4C0", "#A678B4", "#8E1068")
@@ -25,26 +33,13 @@ EXTRACELLULAR, CYTOPLASM = "#E2EEF7", "#FCFBF7"
 #: Velocity arrows are logarithmic: none up to this speed (nm/µs); length (nm) of the fastest one.
 SLOWEST_ARROW, LONGEST_ARROW = 0.03, 14.0
 
-#: A history column as plotted: its values times `factor` are in `unit`; `logarithmic` where it may span decades.
-HistoryPlot = namedtuple("HistoryPlot", "title unit factor logarithmic")
-
-#: History columns worth a plot.
-HISTORY_PLOTS = {
-    "neck_radius_nm": HistoryPlot("Neck radius", "nm", 1, False),
-    "bud_diameter_nm": HistoryPlot("Bud diameter", "nm", 1, False),
-    "bud_height_nm": HistoryPlot("Bud height", "nm", 1, False),
-    "membrane_area_nm2": HistoryPlot("Membrane area", "10³ nm²", 1e-3, False),
-    "bending_energy_pN_nm": HistoryPlot("Bending energy", "pN nm", 1, True),
-    "area_strain_max": HistoryPlot("Largest area strain", "%", 100, True),
-    "volume_extracellular_nm3": HistoryPlot("Volume gained", "10³ nm³", 1e-3, False),
-}
-
 #: Neck radius (nm) that counts as budded.
 BUDDING_NECK_RADIUS = 5.0
 
 #: Times (µs) of the paper's figures.
 PAPER_TIMES = (2.90, 7.46, 14.02, 16.98)
 
+#: Off screen, in the project's style.
 RC = {
     "font.family": "DejaVu Sans",
     "font.size": 9,
@@ -69,6 +64,12 @@ RC = {
     "svg.fonttype": "path",
 }
 
+matplotlib.use("Agg")
+matplotlib.rcParams.update(RC)
+
+# A letter of a name that the font lacks is drawn as a box; pages hold the name as text.
+warnings.filterwarnings("ignore", message="Glyph .* missing from current font")
+
 
 def literal(text):
     """A text from outside, as a picture's text: a dollar begins no formula there."""
@@ -88,8 +89,3 @@ def colours(a, b):
     first = ENGINE_COLOURS.get(a.engine, ENGINE_COLOURS["boundary-integral"])
     second = ENGINE_COLOURS.get(b.engine, ENGINE_COLOURS["phase-field"])
     return first, (SECOND_RUN_COLOUR if first == second else second)
-
-
-def axis_label(column):
-    """Title and unit of a history column, e.g. "Neck radius (nm)"."""
-    return f"{HISTORY_PLOTS[column].title} ({HISTORY_PLOTS[column].unit})"

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from comparisons.errors import RUN_FAILED, StudyError
-from comparisons.inference.batch import batch_of
+from comparisons.inference.course import batch_of
 
 #: Step of a finite difference in a prior's coordinate, far above the noise of a run's error control.
 STEP = 0.02

@@ -13,11 +13,10 @@ from scipy.stats import binom, chisquare
 
 import endoflow
 from comparisons.errors import BAD_INPUT, StudyError
-from comparisons.inference.batch import batch_of
 from comparisons.inference.best_fit import prior_precision
-from comparisons.inference.course import CourseError, course_of
+from comparisons.inference.course import CourseError, batch_of, course_of
+from comparisons.inference.emulator import slopes
 from comparisons.inference.sampling import Density, ensemble, highest_density_level
-from comparisons.inference.training import slopes
 
 #: Samples among which a true value is ranked, and groups of ranks.
 SAMPLES, GROUPS = 99, 10
@@ -72,6 +71,31 @@ def calibrate(problem, trained, truth, course, seed):
         np.sum(x[chosen] < truth, axis=0),
         tuple(own >= highest_density_level(levels, level) for level in LEVELS),
     )
+
+
+def calibration(problem, simulator, trained, count, directory, say):
+    """The entry `calibration` of infer.json, of `count` cases; directory: of a run whose parameters are true, or None.
+
+    say(text) is told each stage. Raises StudyError when no case is like the emulator's runs.
+    """
+    seed = problem.study.seed + 100
+    if directory:
+        x, course = truth_of_run(problem, directory)
+        truth, courses = [x] * count, [course] * count
+    else:
+        truth = truths(problem, count, seed)
+        say(f"calibration: {count} run(s) with true values drawn from the priors")
+        courses = simulator.courses(truth[:, : problem.engine_count])
+    say(f"calibration: {count} posteriors on the emulator")
+    kept = []
+    for number, (x, course) in enumerate(zip(truth, courses)):
+        simulator.study.stop_if_interrupted()
+        case = calibrate(problem, trained, x, course, seed + 1 + number)
+        kept += [case] if case is not None else []
+    if not kept:
+        raise StudyError("no calibration case ends as the emulator's runs do; narrow the priors", BAD_INPUT)
+    left_out, origin = count - len(kept), str(directory) if directory else None
+    return {**summary(problem, kept), "left_out": left_out, "truth": origin}
 
 
 def summary(problem, cases):

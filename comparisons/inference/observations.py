@@ -8,19 +8,20 @@ import numpy as np
 
 import endoflow
 from comparisons.inference.csv_table import Layout, read_table
-from comparisons.inference.study_keys import QUANTITIES
+from comparisons.inference.study_keys import MEASURABLE
+from comparisons.measures.quantities import BUDDING, columns
 
 #: Quantities that exist only while there is a neck.
-WITH_NECK = ("neck_radius_nm", "bud_diameter_nm")
+WITH_NECK = columns("of_neck")
 
 #: Most points of an outline: the sampler's time is proportional to their number.
 MOST_POINTS = 500
 
-#: The one quantity that may be negative; the others are sizes.
-SIGNED = ("bud_height_nm",)
+#: What may be negative; the others are sizes.
+SIGNED = columns("signed")
 
 #: Events, by the name of what an event's datum is compared with.
-EVENTS = {"budding": "budding_time_us"}
+EVENTS = {"budding": BUDDING}
 
 
 @dataclass(frozen=True)
@@ -89,10 +90,10 @@ def layout_of(keys, where):
 def history_data(folder, keys, where):
     """The Data of `file = …`: columns time_us, a quantity or more, and their errors unless `error` gives one for all."""
     path = folder / keys["file"]
-    allowed = ("time_us", *(name for quantity in QUANTITIES for name in (quantity, error_column(quantity))))
+    allowed = ("time_us", *(name for quantity in MEASURABLE for name in (quantity, error_column(quantity))))
     table = read_table(path, ("time_us",), allowed, layout_of(keys, where))
     found = []
-    for quantity in QUANTITIES:
+    for quantity in MEASURABLE:
         name = error_column(quantity)
         if quantity not in table.columns:
             if name in table.columns:

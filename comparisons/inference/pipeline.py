@@ -5,12 +5,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from comparisons.inference.batch import batch_of
 from comparisons.inference.best_fit import Fit, best_fit, prior_precision
-from comparisons.inference.emulator import design
-from comparisons.inference.sampling import Density, Posterior, sample
-from comparisons.inference.training import (
+from comparisons.inference.course import batch_of
+from comparisons.inference.emulator import (
     Trained,
+    design,
     global_runs,
     local_runs,
     points_in,
@@ -19,6 +18,7 @@ from comparisons.inference.training import (
     train,
     whole_region,
 )
+from comparisons.inference.sampling import Density, Posterior, sample
 
 #: Runs of the first look.
 LEAST_STARTS, STARTS_PER_UNKNOWN = 8, 4

@@ -10,17 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import truncnorm
 
+from comparisons.inference.study_keys import KINDS
+
 #: Where a normal prior is cut, in its standard deviations: one in two thousand lies outside.
 REACH = 3.5
-
-#: Keys of each kind of prior.
-KINDS = {
-    "uniform": ("low", "high"),
-    "log-uniform": ("low", "high"),
-    "normal": ("mean", "sd"),
-    "log-normal": ("median", "factor"),
-}
-
 
 class PriorError(ValueError):
     """A prior that cannot be; the message says what is allowed."""

@@ -14,7 +14,7 @@ infer.json:
                           is logarithmic
     fit                   {chi_square, degrees_of_freedom, p_value, evaluations, outcome, data, outside}: `outside` data have no
                           counterpart in the run; those without any number there count neither for χ² nor for the degrees
-    directions            [{combination, deviation, shrinkage, verdict, vector}], see comparisons/inference/identifiability.py
+    directions            [{combination, deviation, shrinkage, verdict, vector}], see comparisons/inference/sensitivity.py
     posterior             {samples, effective, autocorrelation, acceptance, converged, budding_time_us: {median, low, high} or null}
     emulator              {degree, runs, excluded, error, check: {size, worst, unlike, runs}, crowded}: errors in those of the data
     calibration           see comparisons/inference/calibration.py; only with --calibrate. truth: the directory of --truth, or null
@@ -28,10 +28,13 @@ import math
 import numpy as np
 from scipy.stats import chi2
 
-from comparisons.inference.batch import batch_of, values_at, within_course
-from comparisons.inference.course import BUDDED
-from comparisons.inference.identifiability import directions
-from comparisons.inference.study_keys import QUANTITIES
+from comparisons.files import write_table
+from comparisons.inference.course import BUDDED, batch_of, values_at, within_course
+from comparisons.inference.sensitivity import directions
+from comparisons.inference.study_keys import MEASURABLE
+
+#: Samples in posterior.csv.
+WRITTEN_SAMPLES = 4000
 
 #: Ends of a 90 % interval: quantiles, and standard deviations of a normal one.
 LOW, HIGH, DEVIATIONS = 0.05, 0.95, 1.6449
@@ -44,6 +47,22 @@ AT_LIMIT = 0.01
 
 #: A fit with a smaller probability is worth a warning.
 LEAST_P_VALUE = 1e-3
+
+
+def head(problem, file):
+    """The part of infer.json that says what was studied; file: the study's path."""
+    study, case = problem.study, problem.parameters["case"]["name"]
+    return {"schema_version": 1, "study": {"file": str(file), "case": case, "engine": study.engine, "seed": study.seed}}
+
+
+def runs_entry(simulator):
+    """The entry `runs` of infer.json, of a Simulator."""
+    return {
+        "total": len(simulator.courses_by_name),
+        "failed": len(simulator.failures),
+        "alarmed": len(simulator.alarmed),
+        "first_alarm": next(iter(simulator.alarmed.values()), None),
+    }
 
 
 def fit_results(problem, inference, units):
@@ -145,7 +164,7 @@ def bands(problem, inference):
     batch = inference.trained.batch(x[:, : problem.engine_count])
     factor, offset = problem.clocks(x)
     found = {}
-    for column in QUANTITIES:
+    for column in MEASURABLE:
         times = [datum.time for datum in problem.data if datum.column == column]
         if not times:
             continue
@@ -157,6 +176,20 @@ def bands(problem, inference):
         band[:, enough] = np.nanquantile(values[:, enough], (LOW, 0.5, HIGH), axis=0)
         found[column] = (grid, *band)
     return found
+
+
+def write_tables(problem, inference, bands, directory):
+    """Write posterior.csv and predictive.csv into directory (Path); bands: as of bands()."""
+    x = inference.posterior.x
+    chosen = problem.display(x[np.linspace(0, len(x) - 1, min(len(x), WRITTEN_SAMPLES)).astype(int)])
+    write_table(directory / "posterior.csv", [dict(zip(problem.names, map(float, row))) for row in chosen])
+    rows = []
+    for column, curves in bands.items():
+        for row in zip(*curves):
+            numbers = (None if np.isnan(value) else float(value) for value in row)
+            rows.append({"column": column, **dict(zip(("time_us", "low", "median", "high"), numbers))})
+    if rows:
+        write_table(directory / "predictive.csv", rows)
 
 
 def warnings(results):

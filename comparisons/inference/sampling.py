@@ -2,9 +2,10 @@
 
 from dataclasses import dataclass
 
+import emcee
 import numpy as np
 
-from comparisons.errors import IO_FAILURE, RUN_FAILED, StudyError
+from comparisons.errors import RUN_FAILED, StudyError
 
 #: Steps between two looks at the autocorrelation, most steps, and the steps of an autocorrelation time that end a chain.
 BLOCK = 500
@@ -78,10 +79,6 @@ def sample(density, start, covariance, seed, most_steps=MOST_STEPS):
 
 def ensemble(density, start, covariance, seed, walkers):
     """(emcee's sampler of a Density, its first state) with an even number of walkers."""
-    try:
-        import emcee
-    except ImportError:
-        raise StudyError("the sampler emcee is missing; install python3-emcee", IO_FAILURE) from None
     generator = np.random.RandomState(seed)
     first = first_walkers(density, start, covariance, generator, walkers + walkers % 2)
     sampler = emcee.EnsembleSampler(len(first), len(start), density, vectorize=True)

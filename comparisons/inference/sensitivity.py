@@ -1,14 +1,26 @@
-"""Sobol indices: how much of a result's variance over the priors comes from each unknown, by itself and in all.
+"""What the data tell of the unknowns, and the unknowns of the results.
 
-Jansen's estimators (Comput. Phys. Commun. 117, 35 (1999)) on an emulator over the whole priors, from several scrambled Sobol
-sequences; their spread is the error.
+Which combinations of unknowns the data fix, and which they cannot separate: with J = d(prediction/error)/dx in the priors'
+coordinates, a direction v of a singular value s is known to 1/s from the data alone. Where that is no less than what its prior
+says, the data say nothing.
+
+Sobol indices: how much of a result's variance over the priors comes from each unknown, by itself and in all. Jansen's estimators
+(Comput. Phys. Commun. 117, 35 (1999)) on an emulator over the whole priors, from several scrambled Sobol sequences; their spread
+is the error.
 """
+
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.stats import qmc
 
-from comparisons.inference.batch import values_at, within_course
-from comparisons.inference.course import BUDDED, NO_NECK
+from comparisons.inference.course import BUDDED, NO_NECK, values_at, within_course
+
+#: Below this fraction of its prior's deviation a direction is fixed by the data, above LOOSE it is not.
+FIXED, LOOSE = 1 / 3, 0.9
+
+#: Parts of a direction below this are not named.
+NAMED = 0.15
 
 #: Scrambled sequences, and points of each as a power of two.
 REPEATS, LOG2_POINTS = 8, 10
@@ -18,6 +30,52 @@ LEAST_EXISTING = 0.999
 
 #: Quantities at a fixed time.
 AT_TIME = ("neck_radius_nm", "bud_diameter_nm", "bud_height_nm")
+
+
+@dataclass(frozen=True)
+class Direction:
+    """vector (unknowns,) in x; deviation: what the data alone leave of it, in x; shrinkage: posterior over prior deviation;
+    verdict: "fixed by the data", "narrowed" or "not separated"; words: the combination."""
+
+    vector: np.ndarray
+    deviation: float
+    shrinkage: float
+    verdict: str
+    words: str
+
+
+def directions(problem, jacobian):
+    """Every Direction, best known first, of J (data, unknowns)."""
+    _, sizes, rows = np.linalg.svd(jacobian, full_matrices=True)
+    sizes = np.concatenate((sizes, np.zeros(len(rows) - len(sizes))))
+    variances = np.array([prior.deviation**2 for prior in problem.priors])
+    found = []
+    for size, vector in zip(sizes, rows):
+        prior = float(np.sqrt(vector**2 @ variances))
+        deviation = 1 / size if size > 1e-9 else np.inf
+        shrinkage = 1 / np.hypot(1, prior / deviation)
+        verdict = "fixed by the data" if shrinkage < FIXED else "narrowed" if shrinkage < LOOSE else "not separated"
+        found.append(Direction(vector, float(deviation), float(shrinkage), verdict, combination(problem, vector)))
+    return found
+
+
+def combination(problem, vector):
+    """A direction in words: a product of powers where all its parts have logarithmic priors, else a sum over prior widths.
+
+    The power of each unknown is relative to the largest one.
+    """
+    weights = vector / vector[np.argmax(np.abs(vector))]
+    named = [i for i in range(len(weights)) if abs(weights[i]) >= NAMED]
+    if all(problem.priors[i].logarithmic for i in named):
+        powers = weights / np.array([prior.scale for prior in problem.priors])
+        powers = powers / powers[max(named, key=lambda i: abs(powers[i]))]
+        return " · ".join(problem.names[i] + _power(powers[i]) for i in named)
+    terms = [f"{'−' if weights[i] < 0 else '+'} {abs(weights[i]):.2f} {problem.names[i]}" for i in named]
+    return " ".join(terms).removeprefix("+ ")
+
+
+def _power(value):
+    return "" if abs(value - 1) < 5e-3 else f"^{value:.2f}".replace("-", "−")
 
 
 def results_of(batch, time):

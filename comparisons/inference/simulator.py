@@ -8,53 +8,44 @@ import endoflow
 from comparisons.errors import RUN_FAILED, StudyError
 from comparisons.inference.course import CourseError, course_of
 from comparisons.inference.study_file import horizon
-from comparisons.studies.member_runner import FAILED, Task, available_cores, member_environment, run_all, shares
-from comparisons.studies.members import FINISHED, Member, resolved_parameters, run_command, work_left
-from comparisons.studies.progress import Progress
+from comparisons.studies.member_runner import FAILED
+from comparisons.studies.members import FINISHED, checked_member, resolved_parameters, settings_of, work_left
 
 #: Shapes that a run writes up to its end when contours are data.
 SHAPES = 60
 
-
-class Interrupted(Exception):
-    """A signal stopped the runs; the same command continues."""
-
-    def __init__(self, number):
-        super().__init__(number)
-        self.number = number
+#: A fraction of a prior that gives no whole number: a parameter that must be one is no unknown.
+WITHIN = 0.381966
 
 
 class Simulator:
-    """Courses of a Problem's runs in directory/runs.
+    """Courses of a Problem's runs in the directory `runs` of a studies.study.Study, which runs them."""
 
-    jobs, processes: as of every study; interruption: an entered member_runner.Interruption.
-    """
-
-    def __init__(self, problem, program, directory, jobs, processes, interruption):
-        self.problem, self.program, self.directory = problem, program, directory / "runs"
-        self.jobs, self.processes, self.interruption = jobs, processes, interruption
-        self.courses_by_name, self.points, self.members, self.failures = {}, {}, {}, {}
-        self.alarmed, self.total = {}, 0
+    def __init__(self, problem, study):
+        self.problem, self.study, self.directory = problem, study, study.output / "runs"
+        self.courses_by_name, self.points, self.members = {}, {}, {}
+        #: {member name: message} of runs that failed, and of those that left the bounds of an accurate run.
+        self.failures, self.alarmed = {}, {}
 
     def member(self, point):
         """The Member of engine coordinates (engine_count,), its parameters checked."""
-        own = self.problem.settings(point)
-        study = self.problem.study
-        settings = (*fixed_settings(study, self.problem.parameters), *(f"{key}={text}" for key, text in own.items()))
+        own, study = self.problem.settings(point), self.problem.study
+        settings = (*fixed_settings(study, self.problem.parameters), *settings_of(own))
         name = hashlib.sha1("\n".join((study.engine, *settings)).encode()).hexdigest()[:12]
         if name not in self.members:
-            parameters = resolved_parameters(self.program, study.case, settings)
-            self.members[name] = Member(name, study.case, self.directory / name, study.engine, settings, own, parameters)
+            self.members[name] = checked_member(name, study.case, self.directory / name, study.engine, settings, own)
         return self.members[name]
 
     def courses(self, points):
         """The Course of each point (n, engine_count), None where a run failed; runs what is not there yet, in parallel.
 
-        Raises Interrupted; StudyError when every run failed.
+        Raises study.Interrupted; StudyError when every run failed.
         """
         members = [self.member(point) for point in points]
         wanted = {member.name: member for member in members if member.name not in self.courses_by_name}
-        self._run([member for member in wanted.values() if work_left(member) != FINISHED])
+        if left := [member for member in wanted.values() if work_left(member) != FINISHED]:
+            outcomes = self.study.run(left)
+            self.failures.update({name: outcome.message for name, outcome in outcomes.items() if outcome.state == FAILED})
         self.points.update(zip((member.name for member in members), points))
         for member in wanted.values():
             self.courses_by_name[member.name] = self._course(member)
@@ -66,25 +57,6 @@ class Simulator:
     def pool(self):
         """(points (n, engine_count), Courses) of all that is known."""
         return np.array([self.points[name] for name in self.courses_by_name]), [*self.courses_by_name.values()]
-
-    def stop_if_interrupted(self):
-        """Raises Interrupted after a signal."""
-        if self.interruption.signal:
-            raise Interrupted(self.interruption.signal)
-
-    def _run(self, members):
-        if not members:
-            return
-        of_mpi = self.processes if self.problem.study.engine == "phase-field" else 1
-        parallel, threads = shares(available_cores(), self.jobs, of_mpi)
-        mpirun = ("mpirun", "--bind-to", "none") if parallel > 1 else ("mpirun",)
-        tasks = [Task(m, run_command(self.program, m, work_left(m), self.processes, mpirun)) for m in members]
-        progress = Progress(tasks, 0, parallel)
-        outcomes = run_all(tasks, parallel, member_environment(threads), progress, self.interruption)
-        progress.finish()
-        self.total += len(members)
-        self.stop_if_interrupted()
-        self.failures.update({name: outcome.message for name, outcome in outcomes.items() if outcome.state == FAILED})
 
     def _course(self, member):
         """The Course of a finished member; None, and a failure noted, for one that cannot be read."""
@@ -113,7 +85,25 @@ def fixed_settings(study, parameters):
     return settings_of({**own, **study.settings})
 
 
-def settings_of(values):
-    """("section.key=value", …) of {key: value}."""
-    return tuple(f"{key}={str(value).lower() if isinstance(value, bool) else value}" for key, value in values.items())
+def resolved(study, settings=()):
+    """Parameters of a StudyFile's case with its own and other settings. Raises StudyError that begins with the study's path."""
+    try:
+        return resolved_parameters(study.case, [*settings_of(study.settings), *settings])
+    except StudyError as error:
+        raise StudyError(f"{study.path}: {error}", error.exit_code) from None
 
+
+def check_limits(problem):
+    """Raises StudyError where a run at a limit of an unknown's prior or within it, the others in their middle, is refused."""
+    priors = problem.priors[: problem.engine_count]
+    middle = np.array([prior.from_fraction(0.5) for prior in priors])
+    for number, prior in enumerate(priors):
+        for tried in (prior.lowest, prior.highest, prior.from_fraction(WITHIN)):
+            point = middle.copy()
+            point[number] = tried
+            try:
+                resolved(problem.study, settings_of(problem.settings(point)))
+            except StudyError as error:
+                said = str(error).removeprefix(f"{problem.study.path}: ")
+                what = f"its prior allows {float(prior.value(tried)):.6g}, but {said}"
+                raise StudyError(f"{problem.study.path}: unknown {problem.names[number]}: {what}", error.exit_code) from None

@@ -6,10 +6,9 @@ from collections import Counter
 from dataclasses import dataclass
 
 from comparisons.errors import BAD_INPUT, IO_FAILURE, StudyError
-from comparisons.inference.key_kinds import shown
 from comparisons.inference.observations import contour, event, history_data, run_data
 from comparisons.inference.priors import KINDS, PriorError, prior_of
-from comparisons.inference.study_keys import DATA_KINDS, TABLES, read_keys, unknown
+from comparisons.inference.study_keys import DATA_KINDS, TABLES, read_keys, shown, unknown
 from comparisons.inference.text_file import FileError, read_text
 
 #: Keys of a study as a whole: how often each may be there is in its brackets.

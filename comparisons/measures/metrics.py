@@ -38,24 +38,14 @@ from dataclasses import asdict
 import numpy as np
 from scipy.integrate import trapezoid
 
-from comparisons.measures.basis import basis
-from comparisons.measures.distances import curve_distance
-from comparisons.measures.finding import finding
-from comparisons.measures.interpolation import InterpolationError
+from comparisons.errors import StudyError
+from comparisons.measures.distances import InterpolationError, curve_distance
+from comparisons.measures.quantities import COMPARED
+from comparisons.measures.words import basis, finding
 from endoflow.curves import area_from_axis, resample
 from endoflow.run_state import unfinished
 
 SCHEMA_VERSION = 1
-
-#: History columns compared at equal times.
-QUANTITIES = (
-    "neck_radius_nm",
-    "bud_diameter_nm",
-    "bud_height_nm",
-    "membrane_area_nm2",
-    "bending_energy_pN_nm",
-    "volume_extracellular_nm3",
-)
 
 #: Sections of the case file only one engine reads.
 ENGINE_SECTIONS = ("phase_field", "boundary_integral")
@@ -65,7 +55,7 @@ PROFILE_SPACING = 0.1
 PROFILE_SAMPLES = 4000
 
 
-class NoCommonTimeError(Exception):
+class NoCommonTimeError(StudyError):
     """The two runs have no time in common, or nothing but one moment."""
 
 
@@ -127,7 +117,7 @@ def compare_at(a, b, time, errors=None):
         "mean_distance_nm": distance.mean,
         "hausdorff_distance_nm": distance.hausdorff,
         **concentration_difference(shape_a, shape_b),
-        **{name: pair(float(a.history_at(name, time)), float(b.history_at(name, time))) for name in QUANTITIES},
+        **{name: pair(float(a.history_at(name, time)), float(b.history_at(name, time))) for name in COMPARED},
     }
 
 
@@ -216,7 +206,7 @@ def summary(records):
         "time_mean_of_mean_distance_nm": float(trapezoid(mean, times) / span) if span > 0 else float(mean[0]),
         "final_mean_distance_nm": float(mean[-1]),
         "final_hausdorff_distance_nm": float(hausdorff[-1]),
-        "max_relative_difference": {name: _largest_relative(records, name) for name in QUANTITIES},
+        "max_relative_difference": {name: _largest_relative(records, name) for name in COMPARED},
     }
 
 

@@ -1,13 +1,70 @@
-"""report.html of a map of outcomes."""
+"""A map of outcomes over two parameters: its picture and report.html."""
 
-from comparisons.page import report
-from comparisons.page.numbers import escaped, setting
-from comparisons.page.study_report import common_basis_section, heading, page
+import math
+
+import numpy as np
+
+from comparisons.drawing.plots import save
+from comparisons.drawing.style import plt
+from comparisons.page import html
+from comparisons.page.html import escaped, setting
+from comparisons.studies.outcome_map import OUTCOMES
+
+#: Marker and colour of each outcome (Okabe and Ito).
+LOOKS = dict(
+    zip(
+        OUTCOMES,
+        (("o", "#999999"), ("p", "#56B4E9"), ("s", "#E69F00"), ("^", "#0072B2"), ("D", "#CC79A7"), ("x", "#D55E00")),
+    )
+)
+
+#: Marker and colour of stationary shapes' own boundaries.
+STATIC = {"stationary fold": ("*", "#009E73"), "stationary neck closes": ("P", "#009E73")}
+
+#: The key that says how large a coat is: its axis shows the coat's area, too.
+COAT = "molecules.patch_radius"
+
+#: Lines of boundaries, by the second of their outcomes.
+LINE = {"linestyle": "none", "marker": ".", "markersize": 4, "color": "#222222"}
 
 NOTE = (
     '<p class="note">A boundary’s point is the middle of an edge of the finest cells whose ends have different outcomes: the '
     "boundary is known to half such an edge.</p>"
 )
+
+
+def coat_area(radius):
+    """π r_c² in 1000 nm² of radii in nm, an array."""
+    return math.pi * np.square(radius) / 1000
+
+
+def coat_radius(area):
+    """Its inverse; areas below 0, which an axis asks for, count as 0."""
+    return np.sqrt(1000 * np.maximum(area, 0) / math.pi)
+
+
+def write_all(rows, boundary_rows, folds, keys, labels, directory):
+    """Write the map into directory (Path); returns {name: title}.
+
+    rows: of map.csv, boundary_rows: of boundaries.csv; folds: {name of STATIC: [(x, y)]}; keys, labels: of x and y.
+    """
+    figure, axes = plt.subplots(figsize=(11, 6.2), layout="constrained")
+    for outcome, (marker, colour) in LOOKS.items():
+        own = [row for row in rows if row["outcome"] == outcome]
+        if own:
+            places = [[row[key] for row in own] for key in keys]
+            axes.plot(*places, marker, color=colour, markersize=4, label=outcome)
+    axes.plot([row[keys[0]] for row in boundary_rows], [row[keys[1]] for row in boundary_rows], label="boundary", **LINE)
+    for what, points in folds.items():
+        marker, colour = STATIC[what]
+        axes.plot(*zip(*points), marker, color=colour, markeredgecolor="white", markersize=10, label=what, linestyle="none")
+    axes.set_xlabel(labels[0])
+    axes.set_ylabel(labels[1])
+    if keys[0] == COAT:
+        axes.secondary_xaxis("top", functions=(coat_area, coat_radius)).set_xlabel("coat’s area (1000 nm²)")
+    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+    save(figure, directory, "map")
+    return {"map": f"Outcomes over {keys[0]} and {keys[1]}"}
 
 
 def map_html(rows, lines, folds, keys, full, basis, drawn, directory):
@@ -18,18 +75,11 @@ def map_html(rows, lines, folds, keys, full, basis, drawn, directory):
     cards.append(("Runs", str(len(rows)), f"of {full} of the full grid"))
     found = [f"{row['directory']} failed: {row['exit_reason']}" for row in rows if row["outcome"] == "failed"]
     found += [f"{row['directory']}: accuracy alarm: {row['alarms']}" for row in rows if row["alarms"]]
-    sections = [("Map", "".join(report.plot(directory / f"{name}.svg", title) for name, title in drawn.items()))]
+    sections = [("Map", html.plots(drawn, directory))]
     if lines:
-        sections.append(("Boundaries", NOTE + _table(lines)))
+        sections.append(("Boundaries", NOTE + html.rows_table(lines, 6)))
     if folds:
-        body = [(what, [setting(x, 6), setting(y, 6)]) for what, points in folds.items() for x, y in points]
-        sections.append(("Stationary shapes", report.table([escaped(key) for key in keys], body)))
-    sections += [("Runs", _table(rows)), *common_basis_section(basis)]
-    return page("endoflow map", " and ".join(keys), f"{len(rows)} runs", found, cards, sections, directory)
-
-
-def _table(rows):
-    """Rows of a CSV file but for directories."""
-    heads = [head for head in rows[0] if head != "directory"]
-    body = [("", [setting(row[head], 6) for head in heads]) for row in rows]
-    return report.table([heading(head) for head in heads], body)
+        body = [[escaped(what), setting(x, 6), setting(y, 6)] for what, points in folds.items() for x, y in points]
+        sections.append(("Stationary shapes", html.table(["", *map(escaped, keys)], body)))
+    sections += [("Runs", html.rows_table(rows, 6)), *html.common_basis_section(basis)]
+    return html.page("endoflow map", " and ".join(keys), f"{len(rows)} runs", found, cards, sections, directory)

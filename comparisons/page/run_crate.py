@@ -22,7 +22,7 @@ CONFORMS = "https://w3id.org/ro/crate/1.1"
 LICENSE = "https://spdx.org/licenses/GPL-3.0-or-later"
 
 
-def crate(run, licence=None):
+def metadata(run, licence=None):
     """The content of ro-crate-metadata.json for an endoflow.Run, as a dict.
 
     licence: of the data, a URL; None leaves it to who publishes them.

@@ -2,11 +2,10 @@
 
 from dataclasses import dataclass, field
 
-from comparisons.drawing.pyplot import plt
-
-from .item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, Wanted, is_run, state_of, text, value_at
-from .printed import QUICK_TIME, TIME, quick_sentence, settings
-from .table2 import PAPER_AREA
+from comparisons.drawing.style import plt
+from comparisons.paper.item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, Wanted, is_run, state_of, text, value_at
+from comparisons.paper.printed import QUICK_TIME, TIME, quick_sentence, settings
+from comparisons.paper.table2 import PAPER_AREA
 
 TITLE = "Attribution: from the printed numerics to the sharp membrane"
 

@@ -2,11 +2,9 @@
 
 import math
 
-from comparisons.drawing.pyplot import plt
-
-from .branches import followed
-from .histories import COLOURS
-from .item import Printed, Result, text
+from comparisons.drawing.style import plt
+from comparisons.paper.figures import COLOURS
+from comparisons.paper.item import Printed, Result, followed, text
 
 TITLE = "A tube pulled from a membrane (Derényi, Jülicher & Prost 2002)"
 SOURCE = "I. Derényi, F. Jülicher, J. Prost, Phys. Rev. Lett. 88, 238101 (2002)"

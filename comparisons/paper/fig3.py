@@ -1,7 +1,7 @@
 """Fig. 3: molecules that keep together (Cahn–Hilliard) and molecules that diffuse (Fick)."""
 
-from .histories import history_figure, history_names
-from .item import (
+from comparisons.paper.figures import history_figure, history_names, snapshots
+from comparisons.paper.item import (
     Printed,
     Result,
     both_engines,
@@ -14,7 +14,6 @@ from .item import (
     text,
     value_at,
 )
-from .snapshots import snapshots
 
 TITLE = "Fig. 3: Cahn–Hilliard and Fickian transport"
 TRANSPORTS = {"standard": "Cahn–Hilliard", "fickian": "Fickian"}

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from comparisons.drawing import style
-
-from .histories import history_figure, history_names
-from .item import (
+from comparisons.paper.figures import history_figure, history_names, membrane_in_fluid, moving_membrane, snapshots
+from comparisons.paper.item import (
     NECK_CLOSED,
     Printed,
     Result,
@@ -20,7 +19,6 @@ from .item import (
     state_of,
     text,
 )
-from .snapshots import membrane_in_fluid, moving_membrane, snapshots
 
 TITLE = "Fig. 4: without flow and with flow"
 DYNAMICS = {"geometric": "without flow", "standard": "with flow"}

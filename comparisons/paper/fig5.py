@@ -2,11 +2,10 @@
 
 from comparisons.drawing import style
 from comparisons.drawing.pictures import Panel, gallery
-
-from . import patch_sweep
-from .item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, is_run, last_time, quick_remark, state_of
-from .patch_sweep import STATIONARY, name_of
-from .snapshots import ended_because, sharp_of, with_line
+from comparisons.paper import patch_sweep
+from comparisons.paper.figures import ended_because, sharp_of, with_line
+from comparisons.paper.item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, is_run, last_time, quick_remark, state_of
+from comparisons.paper.patch_sweep import STATIONARY, name_of
 
 TITLE = "Fig. 5: stationary shapes by patch radius"
 

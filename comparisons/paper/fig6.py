@@ -3,12 +3,21 @@
 import numpy as np
 
 from comparisons.drawing import style
-from comparisons.drawing.pyplot import plt
-from comparisons.drawing.sweep_plots import LOOKS
-
-from . import patch_sweep
-from .item import NECK_CLOSED, PHASE_FIELD, Printed, Result, Wanted, end_of, final_value, is_run, quick_remark, text
-from .patch_sweep import EARLY, STATIONARY, of_engine
+from comparisons.drawing.style import plt
+from comparisons.paper import patch_sweep
+from comparisons.paper.item import (
+    NECK_CLOSED,
+    PHASE_FIELD,
+    Printed,
+    Result,
+    Wanted,
+    end_of,
+    final_value,
+    is_run,
+    quick_remark,
+    text,
+)
+from comparisons.paper.patch_sweep import EARLY, STATIONARY, of_engine
 
 TITLE = "Fig. 6: vesicle diameter and neck radius by patch radius"
 
@@ -63,7 +72,7 @@ def draw(rows):
     """Diameter and neck radius against the patch radius."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.9), layout="constrained")
     for engine in patch_sweep.engines_of(rows):
-        look = {"color": style.ENGINE_COLOURS[engine][0], "label": style.ENGINE_NAMES[engine], **LOOKS[engine]}
+        look = {"color": style.ENGINE_COLOURS[engine][0], "label": style.ENGINE_NAMES[engine], **style.LOOKS[engine]}
         x, y = of_engine(rows, engine, "bud_diameter_nm")
         left.plot(x, y, **look)
         x, y = of_engine(rows, engine, "neck_radius_nm")

@@ -1,12 +1,10 @@
 """Fig. 7: time of budding against the patch radius."""
 
 from comparisons.drawing import style
-from comparisons.drawing.pyplot import plt
-from comparisons.drawing.sweep_plots import LOOKS
-
-from . import patch_sweep
-from .item import PHASE_FIELD, Printed, Result, quick_remark, text
-from .patch_sweep import best, of_engine
+from comparisons.drawing.style import plt
+from comparisons.paper import patch_sweep
+from comparisons.paper.item import PHASE_FIELD, Printed, Result, quick_remark, text
+from comparisons.paper.patch_sweep import best, of_engine
 
 TITLE = "Fig. 7: budding time by patch radius"
 
@@ -26,7 +24,7 @@ def draw(rows):
     """Budding time against patch radius and against the diameter at budding."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.9), sharey=True, layout="constrained")
     for engine in patch_sweep.engines_of(rows):
-        look = {"color": style.ENGINE_COLOURS[engine][0], "label": style.ENGINE_NAMES[engine], **LOOKS[engine]}
+        look = {"color": style.ENGINE_COLOURS[engine][0], "label": style.ENGINE_NAMES[engine], **style.LOOKS[engine]}
         x, y = of_engine(rows, engine, "budding_time_us")
         left.plot(x, y, **look)
         diameter = of_engine(rows, engine, "diameter_at_budding_nm")[1]

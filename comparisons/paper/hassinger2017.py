@@ -4,11 +4,9 @@ import math
 
 import numpy as np
 
-from comparisons.drawing.pyplot import plt
-
-from .branches import followed
-from .histories import COLOURS
-from .item import Printed, Result, text
+from comparisons.drawing.style import plt
+from comparisons.paper.figures import COLOURS
+from comparisons.paper.item import Printed, Result, followed, text
 
 TITLE = "Snap-through of a growing coat (Hassinger et al. 2017)"
 SOURCE = "J. E. Hassinger, G. Oster, D. G. Drubin, P. Rangamani, Proc. Natl. Acad. Sci. 114, E1118 (2017)"

@@ -6,11 +6,9 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import j0, j1
 
-from comparisons.drawing.pyplot import plt
-
-from .branches import followed
-from .histories import COLOURS
-from .item import Printed, Result, text
+from comparisons.drawing.style import plt
+from comparisons.paper.figures import COLOURS
+from comparisons.paper.item import Printed, Result, followed, text
 
 TITLE = "Budding by line tension (Jülicher & Lipowsky 1996)"
 SOURCE = (

@@ -4,11 +4,10 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from comparisons.drawing import style
-from comparisons.drawing.pyplot import plt
-
-from .item import PHASE_FIELD, Printed, Result, Wanted, text, value_at
-from .printed import MOBILITY_PER_PRINTED, QUICK_TIME, TIME, quick_sentence, settings
-from .table2 import PAPER, PAPER_AREA
+from comparisons.drawing.style import plt
+from comparisons.paper.item import PHASE_FIELD, Printed, Result, Wanted, text, value_at
+from comparisons.paper.printed import MOBILITY_PER_PRINTED, QUICK_TIME, TIME, quick_sentence, settings
+from comparisons.paper.table2 import PAPER, PAPER_AREA
 
 TITLE = "Table 1's mobility: which reading of γ fits Table 2"
 

@@ -1,29 +1,28 @@
 """report.html of an item, and the index of all."""
 
 from comparisons.drawing import style
-from comparisons.measures.basis import basis
-from comparisons.page import report
-from comparisons.page.numbers import escaped, figures, setting
-from comparisons.page.study_report import page
-
-from .item import is_run, not_run_remarks, state_of
+from comparisons.measures.words import basis
+from comparisons.page import html
+from comparisons.page.html import escaped, figures, setting
+from comparisons.paper import NAMES, OTHER_NAMES, item_module
+from comparisons.paper.item import is_run, not_run_remarks, state_of
 
 COMMAND = "endoflow reproduce"
 SOURCE = "J. Lowengrub, J. Allard, S. Aland, J. Comput. Phys. (2016)"
 
 
-def item_html(item, title, source, result, runs, quick, directory):
-    """The page's text; result: item.Result, its figures saved in directory (Path)."""
+def item_html(item, module, result, runs, quick, directory):
+    """The page's text; module: the item's; result: item.Result, its figures saved in directory (Path)."""
     remarks = [*result.remarks, *not_run_remarks(runs)]
     sections = [
         ("The paper beside this", printed_table(result.printed)),
         ("What differs, and why", "<ul>" + "".join(f"<li>{escaped(one)}</li>" for one in remarks) + "</ul>"),
-        ("Plots", "".join(report.plot(directory / f"{n}.svg", text) for n, (text, _) in result.figures.items())),
+        ("Plots", html.plots({name: text for name, (text, _) in result.figures.items()}, directory)),
         ("Numbers", numbers_table(result.rows) + f'<p class="note">{escaped(item)}.csv holds them with 12 digits.</p>'),
         ("Runs", runs_table(runs)),
     ]
-    subtitle = f"{source} · {'quick' if quick else 'full'}"
-    return page(f"{COMMAND} {item}", title, subtitle, alarms(runs), [], sections, directory)
+    subtitle = f"{getattr(module, 'SOURCE', SOURCE)} · {'quick' if quick else 'full'}"
+    return html.page(f"{COMMAND} {item}", module.TITLE, subtitle, alarms(runs), [], sections, directory)
 
 
 def alarms(runs):
@@ -43,17 +42,17 @@ def printed_table(printed):
     engines = engines_of(printed)
     heads = ["", "paper", *(escaped(style.ENGINE_NAMES.get(engine, "here")) for engine in engines)]
     rows = [
-        ("", [escaped(one.what), escaped(one.paper), *(escaped(one.ours.get(engine, "–")) for engine in engines)])
+        [escaped(one.what), escaped(one.paper), *(escaped(one.ours.get(engine, "–")) for engine in engines)]
         for one in printed
     ]
-    return report.table(heads, rows, "text")
+    return html.table(heads, rows, "text")
 
 
 def numbers_table(rows):
     """The rows of the CSV file."""
     heads = [escaped(column.replace("_", " ")) for column in rows[0]]
-    body = [("", [setting(value, 5) for value in row.values()]) for row in rows]
-    return f"<details><summary>{len(rows)} rows</summary>{report.table(heads, body)}</details>"
+    body = [[setting(value, 5) for value in row.values()] for row in rows]
+    return f"<details><summary>{len(rows)} rows</summary>{html.table(heads, body)}</details>"
 
 
 def runs_table(runs):
@@ -63,7 +62,7 @@ def runs_table(runs):
         for engine, found in engines.items():
             head = [escaped(name), escaped(style.ENGINE_NAMES[engine])]
             if not is_run(found):
-                rows.append(("", [*head, escaped(state_of(found)), "–", "–", "–", "–", "–"]))
+                rows.append([*head, escaped(state_of(found)), "–", "–", "–", "–", "–"])
                 continue
             record, (convention, resolved, alarmed) = found.record, [value for _, value in basis(found)]
             cells = [
@@ -74,8 +73,8 @@ def runs_table(runs):
                 figures(record.get("wall_s"), 3),
                 f"<code>{escaped(found.directory)}</code>",
             ]
-            rows.append(("", [*head, *cells]))
-    return report.table(
+            rows.append([*head, *cells])
+    return html.table(
         ["run", "engine", "ended with", "end (µs)", "resolution; curvature convention", "alarms", "wall (s)", "directory"],
         rows,
         "text",
@@ -93,14 +92,11 @@ def summary_lines(item, result, directory):
 
 def index_html(output):
     """A page that links to every item that lies in output (Path)."""
-    from . import ITEMS, OTHERS
-
-    modules = {**ITEMS, **OTHERS}
-    made = [name for name in modules if (output / name / "report.html").exists()]
+    made = [name for name in (*NAMES, *OTHER_NAMES) if (output / name / "report.html").exists()]
     rows = []
     for name in made:
         picture = next(iter(sorted((output / name).glob("*.png"), key=lambda p: (len(p.name), p.name))), None)
         image = f'<img src="{escaped(picture.relative_to(output))}" alt="" width="320">' if picture else ""
-        link = f'<a href="{escaped(name)}/report.html">{escaped(modules[name].TITLE)}</a>'
-        rows.append(("", [link, image, f'<a href="{escaped(name)}/{escaped(name)}.csv">CSV</a>']))
-    return page(COMMAND, "The paper, reproduced", SOURCE, [], [], [("Items", report.table(["", "", ""], rows))], output)
+        link = f'<a href="{escaped(name)}/report.html">{escaped(item_module(name).TITLE)}</a>'
+        rows.append([link, image, f'<a href="{escaped(name)}/{escaped(name)}.csv">CSV</a>'])
+    return html.page(COMMAND, "The paper, reproduced", SOURCE, [], [], [("Items", html.table(["", "", ""], rows))], output)

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 from scipy.integrate import trapezoid
 
+from comparisons.paper.item import both_engines, end_of, is_run, state_of, value_at
 from endoflow.curves import area_from_axis
-
-from .item import both_engines, end_of, is_run, state_of, value_at
 
 #: Patch radii (nm), 20 to 60 as in the paper; the phase field's with `--quick`.
 RADII = tuple(range(20, 61, 4)) + (38,)

@@ -4,12 +4,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from comparisons.drawing.pyplot import plt
-
-from .histories import COLOURS
-from .item import BOUNDARY_INTEGRAL, Printed, Result, Wanted, end_of, is_run, state_of, text, value_at
-from .printed import TIME
-from .table2 import PAPER_AREA
+from comparisons.drawing.style import plt
+from comparisons.paper.figures import COLOURS
+from comparisons.paper.item import BOUNDARY_INTEGRAL, Printed, Result, Wanted, end_of, is_run, state_of, text, value_at
+from comparisons.paper.printed import TIME
+from comparisons.paper.table2 import PAPER_AREA
 
 TITLE = "Time scale: readings of the print in the sharp model"
 

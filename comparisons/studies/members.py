@@ -1,12 +1,14 @@
 """The members of a study, runs of one case that differ in some parameters: directories, state, what is left to do."""
 
 import json
+import os
 import subprocess
 from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.parse import quote
 
-from comparisons.errors import StudyError
+import endoflow
+from comparisons.errors import BAD_INPUT, IO_FAILURE, RUN_FAILED, StudyError
 from comparisons.measures.metrics import flat_parameters
 from endoflow.errors import last_word
 from endoflow.run_directory import damage_of
@@ -42,29 +44,44 @@ class Member:
         return float(self.parameters["time"]["end"])
 
 
-def resolved_parameters(program, case, settings):
-    """Every parameter {section: {key: value}} of a case (path) with some settings, as `endoflow check` resolves them.
+def program():
+    """The endoflow that started this script."""
+    found = os.environ.get("ENDOFLOW_PROGRAM")
+    if not found:
+        raise StudyError("start this as a command of endoflow, or name that program in ENDOFLOW_PROGRAM", BAD_INPUT)
+    return Path(found)
 
-    Raises StudyError with the message and exit code of the check.
-    """
-    arguments = [part for setting in settings for part in ("--set", setting)]
+
+def answer(*words):
+    """What `endoflow WORDS` prints. Raises StudyError with the message and the exit code of a refusal."""
     try:
-        check = subprocess.run(
-            [str(program), "check", str(case), "--json", *arguments], capture_output=True, text=True, check=False
-        )
+        done = subprocess.run([str(program()), *words], capture_output=True, text=True, check=False)
     except OSError as error:
-        raise StudyError(f"{program}: {error.strerror}; build or install endoflow", 4) from None
-    if check.returncode:
-        raise StudyError(last_word(check.stderr) or f"{program} check failed", check.returncode)
-    return json.loads(check.stdout)
+        raise StudyError(f"{program()}: {error.strerror}; build or install endoflow", IO_FAILURE) from None
+    if done.returncode:
+        raise StudyError(last_word(done.stderr) or f"{program()} {words[0]} failed", done.returncode)
+    return done.stdout
 
 
-def parameter_units(program):
+def resolved_parameters(case, settings):
+    """Every parameter {section: {key: value}} of a case (path) with some settings, as `endoflow check` resolves them."""
+    return json.loads(answer("check", str(case), "--json", *(part for setting in settings for part in ("--set", setting))))
+
+
+def parameter_units():
     """{"section.key": unit} of every parameter that has one, as `endoflow params` knows them."""
-    listed = subprocess.run([str(program), "params", "--json"], capture_output=True, text=True, check=False)
-    if listed.returncode:
-        raise StudyError(last_word(listed.stderr) or f"{program} params failed", listed.returncode)
-    return {row["name"]: row["unit"] for row in json.loads(listed.stdout) if row["unit"]}
+    return {row["name"]: row["unit"] for row in json.loads(answer("params", "--json")) if row["unit"]}
+
+
+def checked_member(name, case, directory, engine, settings, values=None):
+    """The Member, its parameters resolved. values: those of its settings that the study varies. Raises StudyError."""
+    settings = tuple(settings)
+    return Member(name, case, directory, engine, settings, values or {}, resolved_parameters(case, settings))
+
+
+def settings_of(values):
+    """("section.key=value", …) of {key: value}."""
+    return tuple(f"{key}={str(value).lower() if isinstance(value, bool) else value}" for key, value in values.items())
 
 
 def directory_name(values):
@@ -86,6 +103,21 @@ def read_record(directory):
         return None
     whole = isinstance(record.get("parameters"), dict) and damage_of(record) is None
     return record if whole else None
+
+
+def records_of(members):
+    """run.json of every member that has one."""
+    return [record for member in members if (record := read_record(member.directory))]
+
+
+def load_run(member):
+    """The endoflow.Run of a member, up to its end. Raises endoflow.EndoflowError, and StudyError for a run of another study."""
+    run = endoflow.load(member.directory)
+    if covers(run.record, member):
+        return run.until(member.end)
+    if differing_parameters(run.parameters, member.parameters, member.engine):
+        raise StudyError(f"{member.directory} holds a run with other parameters", RUN_FAILED)
+    return run
 
 
 def work_left(member):
@@ -130,7 +162,7 @@ def differing_parameters(found, wanted, engine):
 
 
 def run_command(program, member, work, processes=1, mpirun=("mpirun",)):
-    """The command line (list of str) that runs a member."""
+    """The command line (list of str) with which a program runs a member."""
     launcher = [*mpirun, "-n", str(processes)] if processes > 1 and member.engine == "phase-field" else []
     settings = [part for setting in member.settings for part in ("--set", setting)]
     restart = ["--restart"] if work == CONTINUE else []

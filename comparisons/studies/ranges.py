@@ -2,13 +2,16 @@
 
 import itertools
 import math
-from decimal import Decimal, InvalidOperation
+from decimal import Decimal
+
+from comparisons.errors import StudyError
+from comparisons.files import as_number
 
 #: Most values of one parameter, and most combinations of all: more is a slip of the keyboard.
 MOST_VALUES = 10000
 
 
-class RangeError(ValueError):
+class RangeError(StudyError):
     """A range that cannot be read; the message says what is allowed."""
 
 
@@ -37,13 +40,26 @@ def shortest(text):
     return text if number is None else f"{number:.12g}"
 
 
-def as_number(text):
-    """The finite number a text spells, or None."""
-    try:
-        number = Decimal(text)
-    except InvalidOperation:
-        return None
-    return float(number) if number.is_finite() else None
+def positive_numbers(text, option):
+    """The numbers of a comma list or range, all positive."""
+    numbers = [as_number(value) for value in parsed_values(text, f"{option} {text}")]
+    if any(number is None or number <= 0 for number in numbers):
+        raise RangeError(f"{option} {text}: positive numbers separated by commas are needed")
+    return numbers
+
+
+def two_intervals(texts):
+    """[(key, low, high)] of two texts section.key=low:high with different keys."""
+    found = []
+    for text in texts:
+        key, _, limits = text.partition("=")
+        numbers = [as_number(part) for part in limits.split(":")]
+        if key.count(".") < 1 or len(numbers) != 2 or None in numbers or not numbers[0] < numbers[1]:
+            raise RangeError(f"--vary {text}: it must read section.key=low:high with low below high")
+        found.append((key, *numbers))
+    if len(found) != 2 or found[0][0] == found[1][0]:
+        raise RangeError("a map needs --vary for two parameters")
+    return found
 
 
 def _range(text, where):

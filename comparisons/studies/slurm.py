@@ -1,8 +1,11 @@
 """The batch script that runs a sweep's members as a Slurm array."""
 
 import shlex
+from pathlib import Path
 
 from comparisons.errors import BAD_INPUT, StudyError
+from comparisons.files import write_text
+from comparisons.studies.members import FINISHED, program, run_command, work_left
 
 TEMPLATE = r"""#!/bin/bash
 # Runs {count} member(s) of a sweep as an array:   sbatch {script}
@@ -12,13 +15,13 @@ TEMPLATE = r"""#!/bin/bash
 #SBATCH --array=0-{last}{limit}
 #SBATCH --nodes=1
 #SBATCH --ntasks={processes}
-#SBATCH --cpus-per-task={threads}
+#SBATCH --cpus-per-task=1
 #SBATCH --chdir={working_directory}
 #SBATCH --output={logs}
 set -u
 endoflow=${{ENDOFLOW_PROGRAM:-{program}}}
 script={script}
-export OMP_NUM_THREADS={threads} OPENBLAS_NUM_THREADS={threads}
+export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 
 # run fresh|continue DIRECTORY COMMAND…: what this script's earlier jobs left there decides, else the first word.
 run() {{
@@ -43,27 +46,30 @@ esac
 """
 
 
-def array_script(entries, name, script, working_directory, program, processes, threads, jobs):
-    """Text of the script.
+def write_script(members, name, script, processes, jobs):
+    """Write the script (Path) that runs what is left of members; returns what to tell the user.
 
-    entries: [(work, directory, command line)] of the members to run; a command line is a list of str whose program is
-    "$endoflow". script, working_directory, program: paths; processes of each member, threads of each process;
-    jobs: most members at a time, None for no limit. Raises StudyError for paths that a line of the script cannot hold.
+    name: of the job; processes: of each member; jobs: most members at a time, None for no limit. Raises StudyError for paths
+    that a line of the script cannot hold.
     """
+    left = [(work, member) for member in members if (work := work_left(member)) != FINISHED]
+    if not left:
+        return f"all {len(members)} runs are finished: nothing to submit"
     logs = f"{directive(script.parent, '-o').replace('%', '%%')}/slurm-%A_%a.txt"
-    return TEMPLATE.format(
-        count=len(entries),
-        last=len(entries) - 1,
+    text = TEMPLATE.format(
+        count=len(left),
+        last=len(left) - 1,
         limit="" if jobs is None else f"%{jobs}",
         name=f'"{directive(name, "the case file")}"',
         script=shlex.quote(str(script)),
         logs=f'"{logs}"',
-        working_directory=f'"{directive(working_directory, "the working directory")}"',
-        program=shlex.quote(str(program)),
+        working_directory=f'"{directive(Path.cwd(), "the working directory")}"',
+        program=shlex.quote(str(program())),
         processes=processes,
-        threads=threads,
-        entries="\n".join(_entry(number, *entry) for number, entry in enumerate(entries)),
+        entries="\n".join(_entry(number, *entry, processes) for number, entry in enumerate(left)),
     )
+    write_text(script, text)
+    return f"{len(left)} of {len(members)} runs left: sbatch {script}; afterwards the same command with --collect"
 
 
 def directive(text, what):
@@ -81,7 +87,8 @@ def directive(text, what):
     return text
 
 
-def _entry(number, work, directory, command):
+def _entry(number, work, member, processes):
     """One member's line."""
+    command = run_command('"$endoflow"', member, "", processes)
     words = [word if word == '"$endoflow"' else shlex.quote(word) for word in command]
-    return f"{number}) run {work} {shlex.quote(str(directory))} {' '.join(words)} ;;"
+    return f"{number}) run {work} {shlex.quote(str(member.directory))} {' '.join(words)} ;;"

@@ -8,26 +8,18 @@ exist" (no neck, no budding, not run). Of a run that went on longer than the swe
 history.csv are those at the sweep's end, wall_s is that of the whole run.
 """
 
-import csv
 import math
 
 import numpy as np
 
-from comparisons.files import named
+from comparisons.measures.quantities import BUDDING, SWEPT
 from comparisons.studies.members import covers, differing_parameters, read_record
-from comparisons.studies.ranges import as_number
 from endoflow import EndoflowError
 from endoflow.alarms import alarms_of
 from endoflow.history import read_history
 
 #: Columns of the table that come from the last row of history.csv: {column: history column}.
-FINAL = {
-    "neck_radius_nm": "neck_radius_nm",
-    "lateral_diameter_nm": "bud_diameter_nm",
-    "height_nm": "bud_height_nm",
-    "area_nm2": "membrane_area_nm2",
-    "energy_pN_nm": "bending_energy_pN_nm",
-}
+FINAL = {column: quantity.column for column, quantity in SWEPT.items() if quantity.column != BUDDING}
 
 
 def row(member, outcome=None):
@@ -56,7 +48,7 @@ def row(member, outcome=None):
         "state": state,
         "exit_reason": reason,
         "time_us": time,
-        "budding_time_us": budding_time(found, end),
+        BUDDING: budding_time(found, end),
         **final_values(member.directory / "history.csv" if record else None, end),
         "alarms": "; ".join(alarm.name for alarm in alarms_of(found) if alarm.time <= end) or None,
         "program": "; ".join(programs(found)) or None,
@@ -97,19 +89,3 @@ def final_values(path, end):
     time = min(end, history["time_us"][-1])
     last = {column: float(np.interp(time, history["time_us"], history[source])) for column, source in FINAL.items()}
     return {column: value if math.isfinite(value) else None for column, value in last.items()}
-
-
-def write_table(path, rows):
-    """Write rows, list of {column: value}, as CSV."""
-    with named(path), open(path, "w", newline="", encoding="utf-8", errors="surrogateescape") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(rows[0])
-        writer.writerows([cell(value) for value in entry.values()] for entry in rows)
-
-
-def cell(value):
-    """A value as text: numbers with 12 digits, None as nothing, an apostrophe before what spreadsheets would compute."""
-    if value is None:
-        return ""
-    text = f"{value:.12g}" if isinstance(value, float) else str(value)
-    return f"'{text}" if text.startswith(("=", "+", "-", "@")) and as_number(text) is None else text

@@ -39,7 +39,9 @@ def last_word(text: str) -> str:
 
 
 class EndoflowError(Exception):
-    """Base class of every error raised on purpose by this package."""
+    """Base class of every error raised on purpose by this package. exit_code: of a command that ends with it."""
+
+    exit_code = 4
 
 
 class RunDirectoryError(EndoflowError):

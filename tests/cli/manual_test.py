@@ -34,7 +34,7 @@ class Manual(unittest.TestCase):
         """Those that the overview lists."""
         overview = subprocess.run([PROGRAM, "help"], capture_output=True, text=True, check=True).stdout
         listed = {line.split()[1] for line in overview.splitlines() if line.startswith("  endoflow ")}
-        known = {words[0] for words in described.COMMANDS}
+        known = {words[0] for words in self.commands}
         self.assertEqual(listed - {"help", "--version"}, known)
 
     def test_every_option_and_parameter_is_there(self):

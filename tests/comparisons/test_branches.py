@@ -9,8 +9,9 @@ from unittest import mock
 import locations  # noqa: F401
 import numpy as np
 from comparisons.commands import reproduce
+from comparisons.commands.options import parsed
 from comparisons.errors import StudyError
-from comparisons.paper import OTHERS, branches, derenyi2002, hassinger2017, juelicher1996
+from comparisons.paper import OTHER_NAMES, derenyi2002, hassinger2017, item, item_module, juelicher1996
 from scratch import scratch_directory
 
 
@@ -18,8 +19,7 @@ class ReadOff(unittest.TestCase):
     """Numbers on the page, from branches that are known."""
 
     def test_names_are_those_of_the_command(self):
-        self.assertEqual(tuple(OTHERS), reproduce.OTHER_NAMES)
-        for module in OTHERS.values():
+        for module in map(item_module, OTHER_NAMES):
             self.assertEqual(module.wanted(False), [])
             self.assertTrue(module.TITLE and module.SOURCE)
 
@@ -29,7 +29,7 @@ class ReadOff(unittest.TestCase):
             "bud_height_nm": np.array([10.0, 50.0, 80.0, 100.0]),
             "neck_radius_nm": np.array([np.nan, np.nan, 20.0, 10.0]),
         }
-        with mock.patch.object(hassinger2017, "followed", return_value=branches.Branch(columns, [80.0, 70.0], "here")):
+        with mock.patch.object(hassinger2017, "followed", return_value=item.Branch(columns, [80.0, 70.0], "here")):
             result = hassinger2017.result({}, False)
         self.assertIn("folds at 20106.2, 15393.8 nm²", result.printed[0].ours[""])  # π 80², π 70²
         self.assertIn("20106.2", result.printed[-1].ours[""])
@@ -51,7 +51,7 @@ class ReadOff(unittest.TestCase):
         for name in ("bud_height_nm", "bending_energy_pN_nm", "line_energy_pN_nm"):
             columns[name] = np.linspace(0, 1000, 202)
         folds = ([6.0 - 0.01, 3.0], [6.0 - 0.04, 3.0])
-        found = [branches.Branch(columns, [fold / per_line_energy for fold in of], "here") for of in folds]
+        found = [item.Branch(columns, [fold / per_line_energy for fold in of], "here") for of in folds]
         with mock.patch.object(juelicher1996, "followed", side_effect=found):
             result = juelicher1996.result({}, False)
         self.assertEqual(result.printed[0].ours[""], "6")
@@ -70,13 +70,13 @@ class ReadOff(unittest.TestCase):
             "bud_height_nm": length,
             "membrane_area_nm2": 2 * math.pi * 22.0 * length,
         }
-        branch = branches.Branch(columns, [], "here")
+        branch = item.Branch(columns, [], "here")
         with mock.patch.object(derenyi2002, "followed", return_value=branch):
             ours = [one.ours[""] for one in derenyi2002.result({}, False).printed]
         self.assertEqual(ours[:3], ["28.0992589 pN", "22 nm", "20.0 % above"])
         output = scratch_directory(self) / "papers"
         with mock.patch.object(derenyi2002, "followed", return_value=branch), redirect_stdout(io.StringIO()):
-            self.assertEqual(reproduce.run(reproduce.parsed(["derenyi2002", "-o", str(output)])), 0)
+            self.assertEqual(reproduce.run(parsed("reproduce", ["derenyi2002", "-o", str(output)])), 0)
         self.assertIn("derenyi2002/report.html", (output / "index.html").read_text(), "an index of no runs")
         self.assertFalse((output / "runs.csv").exists())
 
@@ -85,14 +85,14 @@ class Followed(unittest.TestCase):
     """The program's own branches."""
 
     def test_a_short_branch(self):
-        branch = branches.followed("tube", "membrane.pole_force", 10, {"domain.height": "700"})
+        branch = item.followed("tube", "membrane.pole_force", 10, {"domain.height": "700"})
         self.assertAlmostEqual(branch.columns["pole_force_pN"][-1], 10, places=6)
         self.assertEqual(branch.folds, [])
         self.assertIn("target", branch.ended)
 
     def test_what_is_refused(self):
         with self.assertRaises(StudyError):
-            branches.followed("tube", "membrane.pole_forse", 10, {})
+            item.followed("tube", "membrane.pole_forse", 10, {})
 
 
 if __name__ == "__main__":

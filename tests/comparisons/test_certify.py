@@ -11,9 +11,8 @@ from pathlib import Path
 
 import locations  # noqa: F401
 import synthetic
-from comparisons.measures.certificate import SAFETY, certificate, in_words, layer_parts, sharp_parts
-from comparisons.page.run_report import run_html
-from comparisons.studies.refined_runs import denser_settings, finer_settings, thinner_settings
+from comparisons.studies.certification import SAFETY, certificate, denser_settings, finer_settings, in_words, layer_parts, sharp_parts, thinner_settings
+from comparisons.page.run_page import run_html
 from engines import options
 from scratch import scratch_directory
 from studies import StudyTest

@@ -10,7 +10,7 @@ from command import unnamed_basis
 from studies import StudyTest
 
 from comparisons.measures.convergence import DiffuseRun
-from comparisons.drawing.study_plots import spread
+from comparisons.page.convergence_page import spread
 
 EPSILON = "1.2,2.4,0.85,1.7"
 

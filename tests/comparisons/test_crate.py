@@ -10,7 +10,7 @@ import locations  # noqa: F401
 import synthetic
 from scratch import scratch_directory
 
-from comparisons.commands.guard import call
+from comparisons.commands import call
 
 
 class Crate(unittest.TestCase):

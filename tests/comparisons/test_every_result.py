@@ -16,7 +16,7 @@ from pathlib import Path
 import locations
 from scratch import scratch_directory
 
-from comparisons.commands import guard
+from comparisons import commands
 from engines import COARSE, options, texts
 
 PROGRAM = os.environ.get("ENDOFLOW_PROGRAM", "")
@@ -98,7 +98,7 @@ def command(*words):
     streams = [io.TextIOWrapper(io.BytesIO(), encoding="utf-8") for _ in range(2)]
     with contextlib.redirect_stdout(streams[0]), contextlib.redirect_stderr(streams[1]):
         try:
-            code = guard.call([str(word) for word in words])
+            code = commands.call([str(word) for word in words])
         except SystemExit as error:
             code = error.code
     texts_ = []

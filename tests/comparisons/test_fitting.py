@@ -5,7 +5,7 @@ import unittest
 import locations  # noqa: F401
 import numpy as np
 
-from comparisons.measures.fitting import extrapolated, fitted_order
+from comparisons.measures.convergence import extrapolated, fitted_order
 
 EPSILON = np.array([2.4, 1.7, 1.2, 0.85])
 

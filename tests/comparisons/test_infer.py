@@ -11,14 +11,12 @@ from scratch import scratch_directory
 import endoflow
 from comparisons.errors import StudyError
 from comparisons.inference import calibration, pipeline, sensitivity
-from comparisons.inference.batch import Outputs, batch_of, values_at
+from comparisons.inference.course import BUDDED, Outputs, batch_of, course_of, neck_onset, values_at
 from comparisons.inference.best_fit import best_fit
-from comparisons.inference.course import BUDDED, course_of, neck_onset
-from comparisons.inference.emulator import Region, fitted
-from comparisons.inference.identifiability import directions
+from comparisons.inference.emulator import Region, fitted, points_in
+from comparisons.inference.sensitivity import directions
 from comparisons.inference.observations import error_column
 from comparisons.inference.priors import PriorError, prior_of
-from comparisons.inference.training import points_in
 from comparisons.inference.results import bands, fit_results, warnings
 
 TWO_UNKNOWNS = """

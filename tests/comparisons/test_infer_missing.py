@@ -9,9 +9,8 @@ import stand_in
 from scratch import scratch_directory
 
 from comparisons.inference import pipeline
-from comparisons.inference.batch import batch_of, values_at
+from comparisons.inference.course import FIRST_GRID, NECK, NO_NECK, SECOND_GRID, Course, CourseError, batch_of, course_of, values_at
 from comparisons.inference.best_fit import best_fit
-from comparisons.inference.course import FIRST_GRID, NECK, NO_NECK, SECOND_GRID, Course, CourseError, course_of
 from comparisons.inference.results import fit_results, warnings
 
 VISCOSITY = '[[unknown]]\nname = "viscosity"\nkey = "fluid.viscosity_intracellular"\nprior = "log-uniform"\nlow = 0.005\nhigh = 0.02\n'

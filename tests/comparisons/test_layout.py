@@ -6,7 +6,7 @@ import unittest
 import locations
 
 
-GROUPS = ("measures", "studies", "inference", "drawing", "page", "paper", "commands")
+GROUPS = ("measures", "studies", "drawing", "page", "inference", "paper", "commands")
 SOURCES = locations.ROOT / "comparisons"
 
 
@@ -32,6 +32,23 @@ class LayoutTest(unittest.TestCase):
         folders = {path.parent.name for path in SOURCES.rglob("*.py")}
         self.assertEqual(folders, {*GROUPS, "comparisons"})
         self.assertEqual({p.stem for p in SOURCES.glob("*.py")}, {"__init__", "__main__", "errors", "files"})
+
+    def test_a_module_is_an_idea_and_not_one_function(self):
+        """No module has fewer than 30 lines; a package's own, and what starts it, may."""
+        lines = {file.relative_to(SOURCES).as_posix(): len(file.read_text(encoding="utf-8").splitlines()) for file in SOURCES.rglob("*.py")}
+        self.assertEqual([name for name, count in lines.items() if count < 30 and not name.endswith(("__init__.py", "__main__.py"))], [])
+
+    def test_imports_stand_at_the_top(self):
+        """What takes long is imported with the command's module, after its options have been read."""
+        inside = [
+            f"{file.relative_to(SOURCES)}:{node.lineno}"
+            for file in SOURCES.rglob("*.py")
+            for function in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+            if isinstance(function, ast.FunctionDef)
+            for node in ast.walk(function)
+            if isinstance(node, (ast.Import, ast.ImportFrom))
+        ]
+        self.assertEqual(inside, [])
 
     def test_only_commands_and_the_running_of_members_print(self):
         printing = {

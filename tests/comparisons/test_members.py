@@ -11,8 +11,7 @@ import locations  # noqa: F401
 import synthetic
 from comparisons.studies.member_runner import shares
 from comparisons.studies.members import CONTINUE, FINISHED, FRESH, Member, directory_name, run_command, work_left
-from comparisons.studies.cost import expected_seconds, remaining_seconds, steps
-from comparisons.studies.progress import duration
+from comparisons.studies.progress import duration, expected_seconds, remaining_seconds, steps
 from comparisons.studies.sweep_table import row
 from scratch import scratch_directory
 from studies import StudyTest

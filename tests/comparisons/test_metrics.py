@@ -10,8 +10,8 @@ from scratch import scratch_directory
 
 import endoflow
 import synthetic
-from comparisons.measures.finding import rounded_up
-from comparisons.measures.interpolation import InterpolationError
+from comparisons.measures.words import rounded_up
+from comparisons.measures.distances import InterpolationError
 from comparisons.measures.metrics import (
     NoCommonTimeError,
     case_differences,

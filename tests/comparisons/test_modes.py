@@ -86,7 +86,7 @@ class ModesDirectory(unittest.TestCase):
         self.assertEqual(unnamed_basis(page), [])
 
     def test_displacements_of_the_surfaces(self):
-        from comparisons.drawing.mode_plots import surface
+        from comparisons.page.modes_page import surface
 
         meridian = endoflow.load_modes(self.directory).meridians[-1]
         points, quads, arrays = surface(meridian, 1.0)

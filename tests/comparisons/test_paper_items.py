@@ -6,7 +6,7 @@ from pathlib import Path
 import locations  # noqa: F401
 import numpy as np
 import endoflow
-from comparisons.commands.reproduce import LONGEST_NAME, short_enough
+from comparisons.paper.wanted_runs import LONGEST_NAME, short_enough
 from comparisons.paper import attribution, fig5, mobility, printed, table2, timescale
 from comparisons.paper.item import PHASE_FIELD, NotRun, filled, state_of, value_at
 from comparisons.studies.members import flat_parameters

@@ -11,7 +11,7 @@ import locations
 import synthetic
 from browser import Browser, chromium
 from command import compare
-from comparisons.page.numbers import code, count_or_figures, figures, flattened, percent, prose, setting
+from comparisons.page.html import code, count_or_figures, figures, flattened, percent, prose, setting
 from scratch import scratch_directory
 
 READY = "document.documentElement?.dataset.ready === 'true'"
@@ -255,7 +255,7 @@ class StudyPage(unittest.TestCase):
     """The page of the studies: static, light and dark."""
 
     def test_opens_and_follows_the_theme(self):
-        from comparisons.page.study_report import page
+        from comparisons.page.html import page
 
         with tempfile.TemporaryDirectory() as scratch, Browser() as browser:
             file = Path(scratch) / "report.html"

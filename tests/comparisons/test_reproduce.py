@@ -12,8 +12,7 @@ import numpy as np
 import endoflow
 import synthetic
 from endoflow.shapes import Shape
-from comparisons.commands.reproduce import NAMES
-from comparisons.paper import fig6, patch_sweep
+from comparisons.paper import NAMES, fig6, patch_sweep
 from comparisons.paper.fig4 import pinch_off_time
 from command import unnamed_basis
 from studies import StudyTest

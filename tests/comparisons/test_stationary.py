@@ -12,7 +12,7 @@ import endoflow
 import synthetic
 from command import compare
 from endoflow.curves import area_from_axis
-from comparisons.measures.stationary import side_by_side
+from comparisons.measures.along import side_by_side
 
 DURATION = 1.0
 TIMES = np.linspace(0.0, DURATION, 9)

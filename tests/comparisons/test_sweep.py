@@ -7,8 +7,8 @@ from browser import Browser, chromium
 from command import unnamed_basis
 from studies import BOUNDARY_INTEGRAL, PATCHES, SweepTest
 
-from comparisons.drawing import sweep_plots
-from comparisons.studies.sweep_table import cell
+from comparisons.page import sweep_page
+from comparisons.files import cell
 
 
 class Sweep(SweepTest):
@@ -64,15 +64,15 @@ class Sweep(SweepTest):
             {
                 "molecules.patch_radius": text,
                 "engine": "boundary-integral",
-                **dict.fromkeys(sweep_plots.QUANTITIES, 1.0),
+                **dict.fromkeys(sweep_page.QUANTITIES, 1.0),
             }
             for text in ("20", "30", "40")
         ]
         for row, necks in zip(rows, (4.9999999999998, 5.0, 4.9999999999999)):
             row["neck_radius_nm"] = necks
-        figure = sweep_plots.lines(rows, "molecules.patch_radius", "molecules.patch_radius (nm)")
+        figure = sweep_page.lines(rows, "molecules.patch_radius", "molecules.patch_radius (nm)")
         figure.canvas.draw()
-        axes = figure.axes[list(sweep_plots.QUANTITIES).index("neck_radius_nm")]
+        axes = figure.axes[list(sweep_page.QUANTITIES).index("neck_radius_nm")]
         texts = [label.get_text() for label in axes.get_yticklabels()]
         self.assertLess(max(map(len, texts)), 10, texts)
         self.assertEqual(figure.axes[-1].get_xlabel(), "molecules.patch_radius (nm)")

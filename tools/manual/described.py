@@ -3,21 +3,15 @@
 import json
 import subprocess
 
-#: Words of each command; `run` has an engine behind it.
-COMMANDS = (
-    ("run", "boundary-integral"),
-    ("run", "phase-field"),
-    *((name,) for name in ("compare", "converge", "sweep", "map", "infer", "reproduce", "report", "crate", "movie", "revolve")),
-    *((name,) for name in ("modes", "statics", "params", "laws", "check", "summary")),
-)
-
 ENGINES = ("boundary-integral", "phase-field")
 
 
 def commands(program):
     """{words: {command, description, options}} of every command; an engine that was not built is described as the other one."""
+    names = subprocess.run([program, "--describe"], capture_output=True, text=True, check=True).stdout.split()
+    names.remove("help")
     found = {}
-    for words in COMMANDS:
+    for words in (words for name in names for words in ([(name, one) for one in ENGINES] if name == "run" else [(name,)])):
         process = subprocess.run([program, *words, "--describe"], capture_output=True, text=True, check=False)
         if process.returncode and words == ("run", ENGINES[1]):
             other = found["run", ENGINES[0]]

@@ -1,11 +1,14 @@
 """Fig. A.2: the constitutive laws, and what they do to the standard case."""
 
-from comparisons.drawing.plots import legend_on_top
-from comparisons.drawing.pyplot import plt
+import csv
 
-from .histories import COLOURS, history_figure
-from .item import BOUNDARY_INTEGRAL, Printed, Result, Wanted, is_run, text, value_at
-from .laws import constitutive_laws
+import numpy as np
+
+from comparisons.drawing.plots import legend_on_top
+from comparisons.drawing.style import plt
+from comparisons.paper.figures import COLOURS, history_figure
+from comparisons.paper.item import BOUNDARY_INTEGRAL, Printed, Result, Wanted, is_run, text, value_at
+from comparisons.studies.members import answer
 
 TITLE = "Fig. A.2: constitutive laws"
 
@@ -26,6 +29,12 @@ def wanted(quick):
         Wanted(law, BOUNDARY_INTEGRAL, "standard", {"membrane.constitutive_law": law} if law != "linear" else {}, END)
         for law in LAWS
     ]
+
+
+def constitutive_laws():
+    """{column: array} of `endoflow laws`: c, and for each law LAW_b_pN_nm and LAW_H0_per_nm. Raises StudyError."""
+    header, *rows = csv.reader(answer("laws").splitlines())
+    return dict(zip(header, np.array(rows, dtype=float).T))
 
 
 def draw(laws):

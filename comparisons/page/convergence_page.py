@@ -1,4 +1,4 @@
-"""Plots of the ε → 0 study, each written as PNG and SVG on light ground."""
+"""What the ε → 0 study shows: plots, each written as PNG and SVG on light ground, and report.html."""
 
 import textwrap
 
@@ -7,32 +7,14 @@ import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
 
 from comparisons.drawing import style
-from comparisons.drawing.plots import DRAWN_SPACING, legend_on_top, save_all, vertical_range
-from comparisons.drawing.pyplot import plt
-from comparisons.measures.convergence import BUDDING, DISTANCES, PAIRS, at_time, error_of, value_of
+from comparisons.drawing.axes import vertical_range
+from comparisons.drawing.plots import DRAWN_SPACING, legend_on_top, panels, save_all
+from comparisons.drawing.style import plt
+from comparisons.measures.convergence import PAIRS, at_time, error_of, value_of
+from comparisons.measures.quantities import BUDDING, DISTANCES, DRAWN, NAMES
+from comparisons.page import html
+from comparisons.page.html import escaped, figures, quantity, setting
 from endoflow.curves import resample
-
-#: Titles of the quantities: name and unit.
-TITLES = {
-    "mean_distance_nm": "Mean distance (nm)",
-    "hausdorff_distance_nm": "Hausdorff distance (nm)",
-    "neck_radius_nm": "Neck radius (nm)",
-    "bud_diameter_nm": "Lateral diameter (nm)",
-    "membrane_area_nm2": "Membrane area (nm²)",
-    "volume_extracellular_nm3": "Volume gained (nm³)",
-    "bending_energy_pN_nm": "Bending energy (pN nm)",
-    "budding_time_us": "Budding time (µs)",
-}
-
-#: Histories shown for all runs.
-HISTORIES = (
-    "neck_radius_nm",
-    "bud_diameter_nm",
-    "bud_height_nm",
-    "membrane_area_nm2",
-    "bending_energy_pN_nm",
-    "area_strain_max",
-)
 
 #: Colour of the sharp run, and colour maps from the largest to the smallest ε and from the first to the last time.
 SHARP = style.ENGINE_COLOURS["boundary-integral"][0]
@@ -41,6 +23,11 @@ TIMES = matplotlib.colormaps["BuPu"]
 
 #: Least distance of two slope labels, as a part of the axis.
 LABEL_GAP = 0.075
+LIMITS_NOTE = (
+    '<p class="note">v0 of v0 + a ε^p fitted to the phase-field values alone. Its error is, with four or more ε, the '
+    "larger of the fit’s 95 % half width and the change when the largest ε is left out; with three ε the whole distance "
+    "from the smallest ε to the limit.</p>"
+)
 
 
 def write_all(sharp, diffuse, metrics, directory):
@@ -72,17 +59,17 @@ def errors(metrics):
     """|error| of every quantity against ε on logarithmic axes, one line with its order for each stated time."""
     times, records = metrics["times_us"], metrics["records"]
     colours = shades(TIMES, len(times))
-    figure, grid = plt.subplots(2, 4, figsize=(12.4, 6.0), layout="constrained")
-    for axes, quantity in zip(grid.flat, (*DISTANCES, *PAIRS)):
+    figure, grid = panels(len(DISTANCES) + len(PAIRS) + 1, 3.0)
+    for axes, column in zip(grid, (*DISTANCES, *PAIRS)):
         lines = []
         for time, colour in zip(times, colours):
             own = at_time(records, time)
-            lines.append((time, colour, [r["epsilon_nm"] for r in own], [error_of(r, quantity) for r in own]))
-        _draw_errors(axes, quantity, lines, metrics["orders"])
+            lines.append((time, colour, [r["epsilon_nm"] for r in own], [error_of(r, column) for r in own]))
+        _draw_errors(axes, column, lines, metrics["orders"])
     sharp = metrics["sharp"][BUDDING]
     budding = [(run["epsilon_nm"], run[BUDDING]) for run in metrics["runs"]]
     error = [None if None in (time, sharp) else abs(time - sharp) for _, time in budding]
-    _draw_errors(grid.flat[-1], BUDDING, [(None, "#333333", [e for e, _ in budding], error)], metrics["orders"])
+    _draw_errors(grid[-1], BUDDING, [(None, "#333333", [e for e, _ in budding], error)], metrics["orders"])
     handles = [plt.Line2D([], [], color=colour, marker="o", markersize=5, linestyle="") for colour in colours]
     handles.append(plt.Line2D([], [], color="#666666", linestyle=(0, (4, 2)), linewidth=1.2))
     legend_on_top(figure, handles, [f"{time:.4g} µs" for time in times] + ["fit, with its order p"])
@@ -91,7 +78,7 @@ def errors(metrics):
 
 def _draw_errors(axes, quantity, lines, orders):
     """One panel; lines: [(time, colour, ε, errors)]."""
-    title = TITLES[quantity]
+    title = NAMES[quantity]
     axes.set_title(title if quantity in DISTANCES else f"|Error| of {title[0].lower()}{title[1:]}", size=9.5)
     axes.set_xlabel("ε (nm)")
     shown = []
@@ -157,12 +144,12 @@ def limits(metrics):
     time = metrics["times_us"][-1]
     own = at_time(metrics["records"], time)
     entries = {(e["quantity"], e["time_us"]): e for e in metrics["limits"]}
-    figure, grid = plt.subplots(2, 4, figsize=(12.4, 5.6), layout="constrained")
-    for axes, quantity in zip(grid.flat, (*DISTANCES, *PAIRS)):
-        points = [(r["epsilon_nm"], value_of(r, quantity)) for r in own]
-        _draw_limit(axes, quantity, points, entries.get((quantity, time)))
+    figure, grid = panels(len(DISTANCES) + len(PAIRS) + 1, 2.8)
+    for axes, column in zip(grid, (*DISTANCES, *PAIRS)):
+        points = [(r["epsilon_nm"], value_of(r, column)) for r in own]
+        _draw_limit(axes, column, points, entries.get((column, time)))
     budding = [(run["epsilon_nm"], run[BUDDING]) for run in metrics["runs"]]
-    _draw_limit(grid.flat[-1], BUDDING, budding, entries.get((BUDDING, None)))
+    _draw_limit(grid[-1], BUDDING, budding, entries.get((BUDDING, None)))
     colour = style.ENGINE_COLOURS["phase-field"][0]
     handles = [
         plt.Line2D([], [], color=colour, marker="o", markersize=5, linestyle=""),
@@ -177,7 +164,7 @@ def limits(metrics):
 def _draw_limit(axes, quantity, points, entry):
     """One panel; points: [(ε, value or None)]; entry: of metrics["limits"], or None."""
     colour = style.ENGINE_COLOURS["phase-field"][0]
-    axes.set_title(TITLES[quantity], size=9.5)
+    axes.set_title(NAMES[quantity], size=9.5)
     axes.set_xlabel("ε (nm)")
     points = [(e, v) for e, v in points if v is not None]
     if not points or entry is None:
@@ -241,20 +228,18 @@ def _shape_or_none(run, time):
 def histories(sharp, diffuse):
     """Quantities against time of all runs."""
     colours = shades(EPSILONS, len(diffuse))
-    figure, grid = plt.subplots(2, 3, figsize=(11.4, 5.4), sharex=True, layout="constrained")
-    for axes, column in zip(grid.flat, HISTORIES):
-        shown = style.HISTORY_PLOTS[column]
+    figure, grid = panels(len(DRAWN))
+    for axes, (column, shown) in zip(grid, DRAWN.items()):
         axes.plot(sharp.history["time_us"], shown.factor * sharp.history[column], color=SHARP, linewidth=3.6)
         for one, colour in zip(diffuse, colours):
             history = one.run.history
             axes.plot(history["time_us"], shown.factor * history[column], color=colour, linewidth=1.3)
-        axes.set_title(style.axis_label(column))
+        axes.set_title(shown.label)
+        axes.set_xlabel("time (µs)")
         values = np.concatenate([run.history[column] for run in (sharp, *(one.run for one in diffuse))])
         if not np.isfinite(values).any():
             axes.set_yticks([])
             axes.text(0.5, 0.5, "none in any run", transform=axes.transAxes, ha="center", color="#777777")
-    for axes in grid[-1]:
-        axes.set_xlabel("time (µs)")
     _name_runs(figure, diffuse, colours)
     return figure
 
@@ -264,3 +249,131 @@ def _name_runs(figure, diffuse, colours):
     handles = [plt.Line2D([], [], color=SHARP, linewidth=3.6)]
     handles += [plt.Line2D([], [], color=colour, linewidth=1.6) for colour in colours]
     legend_on_top(figure, handles, ["sharp", *(f"ε = {one.epsilon:g} nm" for one in diffuse)])
+
+
+def convergence_html(metrics, case_name, parameters, drawn, directory):
+    """The page of an ε → 0 study.
+
+    parameters: of the case, {"section.key": value}; drawn: {plot: title}.
+    """
+    epsilons = ", ".join(f"{run['epsilon_nm']:g}" for run in metrics["runs"])
+    sections = [
+        ("Plots", html.plots(drawn, directory)),
+        ("Fitted orders", orders_table(metrics)),
+        ("Limits for ε → 0", LIMITS_NOTE + limits_table(metrics)),
+        ("Distances and errors", records_table(metrics)),
+        ("Runs", runs_table(metrics)),
+        ("What the numbers rest on", basis_table(metrics)),
+        ("Parameters of the case", html.parameters_table(parameters)),
+    ]
+    return html.page(
+        "endoflow converge",
+        "Phase field to sharp membrane",
+        f"Case “{case_name}” · ε = {epsilons} nm",
+        metrics["warnings"],
+        cards(metrics),
+        sections,
+        directory,
+    )
+
+
+def cards(metrics):
+    """The key numbers on top: (title, ready HTML value, note)."""
+    last = metrics["times_us"][-1]
+    found = []
+    for name in DISTANCES:
+        entry = entry_of(metrics["orders"], name, last)
+        if entry is not None:
+            title = NAMES[name].split(" (")[0]
+            found.append((f"{title}: order", figures(entry["order"], 3), f"at {last:.4g} µs, {interval(entry)}"))
+    smallest = metrics["records"][-1]
+    title = f"Mean distance, ε = {smallest['epsilon_nm']:g} nm"
+    found.append((title, quantity(smallest["mean_distance_nm"], 3, "nm"), f"at {smallest['time_us']:.4g} µs"))
+    budding = entry_of(metrics["limits"], BUDDING, None)
+    sharp = metrics["sharp"]["budding_time_us"]
+    found.append(("Budding, sharp", quantity(sharp, 4, "µs"), "neck radius below 5 nm"))
+    if budding is not None and budding["value"] is not None:
+        found.append(("Budding, ε → 0", quantity(budding["value"], 4, "µs"), f"± {figures(budding['error'], 2)} µs"))
+    return found
+
+
+def entry_of(entries, name, time):
+    """The entry of `orders` or `limits` for a quantity and time, or None."""
+    return next((e for e in entries if (e["quantity"], e["time_us"]) == (name, time)), None)
+
+
+def interval(entry):
+    """The 95 % interval of an order in words."""
+    return "from two ε" if entry["low"] is None else f"95 %: {entry['low']:.2f} … {entry['high']:.2f}"
+
+
+def orders_table(metrics):
+    """Fitted orders with their intervals."""
+    rows = [
+        [
+            escaped(NAMES[e["quantity"]].split(" (")[0]),
+            setting(e["time_us"], 4),
+            figures(e["order"], 3),
+            "–" if e["low"] is None else f"{e['low']:.2f} … {e['high']:.2f}",
+            ", ".join(f"{value:.2f}" for value in e["local"]),
+        ]
+        for e in metrics["orders"]
+    ]
+    return html.table(["error of", "t (µs)", "order", "95 % interval", "between neighbouring ε"], rows)
+
+
+def limits_table(metrics):
+    """Extrapolated values beside the sharp ones."""
+    rows = []
+    for e in metrics["limits"]:
+        value = (
+            f"{figures(e['value'], 5)} ± {figures(e['error'], 2)}" if e["value"] is not None else escaped(e["reason"])
+        )
+        inside = e["difference"] is not None and abs(e["difference"]) <= e["error"]
+        verdict = "–" if e["difference"] is None else "yes" if inside else "no"
+        cells = [escaped(NAMES[e["quantity"]]), setting(e["time_us"], 4), value, figures(e["order"], 3)]
+        rows.append(
+            [*cells, "0" if e["sharp"] == 0 else figures(e["sharp"], 5), figures(e["difference"], 3), verdict]
+        )
+    heads = ["", "t (µs)", "limit", "p", "sharp", "limit − sharp", "within its error"]
+    return html.table(heads, rows)
+
+
+def records_table(metrics):
+    """Every record: distances, and the phase field's value with its difference from the sharp one."""
+    rows = []
+    for r in metrics["records"]:
+        cells = [setting(r["time_us"], 4), f"{r['epsilon_nm']:g}", *(figures(r[name], 3) for name in DISTANCES)]
+        cells += [f"{figures(r[name]['b'], 5)}<br><small>{signed(r[name]['difference'])}</small>" for name in PAIRS]
+        rows.append(cells)
+    heads = ["t (µs)", "ε (nm)", *(NAMES[name] for name in DISTANCES), *(NAMES[name] for name in PAIRS)]
+    note = '<p class="note">Small: difference from the sharp run.</p>'
+    return note + html.table(heads, rows)
+
+
+def signed(value):
+    """A difference with its sign."""
+    return "–" if value is None else ("+" if value > 0 else "") + figures(value, 3)
+
+
+def runs_table(metrics):
+    """The runs: resolution, state, cost."""
+    rows = []
+    for run in [metrics["sharp"], *metrics["runs"]]:
+        cells = [
+            escaped(run["label"]),
+            setting(run.get("cell_size_nm"), 4),
+            setting(run["state"]),
+            setting(run["exit_reason"]),
+        ]
+        cells += [figures(run["end_us"]), figures(run["budding_time_us"]), figures(run.get("wall_s"), 3)]
+        rows.append([*cells, f"<code>{escaped(run['directory'])}</code>"])
+    heads = ["", "cells (nm)", "state", "ended with", "end (µs)", "budding (µs)", "wall (s)", "directory"]
+    return html.table(heads, rows)
+
+
+def basis_table(metrics):
+    """Convention, resolution and alarms of the runs."""
+    runs = [metrics["sharp"], *metrics["runs"]]
+    rows = [[escaped(run["label"]), *map(escaped, run["basis"].values())] for run in runs]
+    return html.table(["", *map(escaped, runs[0]["basis"])], rows, "text")

@@ -1,21 +1,19 @@
-"""Plots of a sweep: lines against one varied parameter, heat maps over two."""
+"""A sweep: lines against one varied parameter or heat maps over two, and report.html."""
 
 import numpy as np
 from matplotlib.ticker import NullFormatter, NullLocator
 
 from comparisons.drawing import style
-from comparisons.drawing.plots import legend_on_top, save
-from comparisons.drawing.pyplot import plt
-from comparisons.studies.ranges import as_number
+from comparisons.drawing.plots import legend_on_top, panels, save
+from comparisons.drawing.style import plt
+from comparisons.files import as_number
+from comparisons.measures.quantities import BUDDING, SWEPT
+from comparisons.page import html
+from comparisons.studies.sweep_table import mixed_programs
 
 #: Columns of sweep.csv that are drawn, with their titles; the first three make the heat maps.
 QUANTITIES = {
-    "budding_time_us": "Budding time (µs)",
-    "neck_radius_nm": "Final neck radius (nm)",
-    "lateral_diameter_nm": "Final lateral diameter (nm)",
-    "height_nm": "Final height (nm)",
-    "area_nm2": "Final area (nm²)",
-    "energy_pN_nm": "Final bending energy (pN nm)",
+    column: one.name if one.column == BUDDING else f"Final {one.name[0].lower()}{one.name[1:]}" for column, one in SWEPT.items()
 }
 MAPPED = 3
 
@@ -24,12 +22,6 @@ LOGARITHMIC_FROM = 30
 
 #: Smallest range of a linear value axis, relative to its values.
 LEAST_SPREAD = 1e-6
-
-#: Marker and line of each engine: both show where they coincide.
-LOOKS = {
-    "boundary-integral": {"marker": "o", "markersize": 7, **style.LINES[0]},
-    "phase-field": {"marker": "s", "markersize": 4, **style.LINES[1]},
-}
 
 #: Margin around the panels, inches.
 PADDING = {"w_pad": 0.08, "h_pad": 0.08}
@@ -67,8 +59,8 @@ def lines(rows, key, label):
     texts = list(dict.fromkeys(row[key] for row in rows))
     places, numeric = positions(texts)
     place = dict(zip(texts, places))
-    figure, grid = plt.subplots(2, 3, figsize=(10.6, 5.6), sharex=True, layout="constrained")
-    for axes, (column, title) in zip(grid.flat, QUANTITIES.items()):
+    figure, grid = panels(len(QUANTITIES), 2.8, 3)
+    for axes, (column, title) in zip(grid, QUANTITIES.items()):
         for engine in engines_of(rows):
             _draw_line(axes, [row for row in rows if row["engine"] == engine], column, key, place)
         axes.set_title(title)
@@ -78,7 +70,7 @@ def lines(rows, key, label):
         if not any(row[column] is not None for row in rows):
             axes.set_yticks([])
             axes.text(0.5, 0.5, "none in any run", transform=axes.transAxes, ha="center", color="#777777")
-    for axes in grid[-1]:
+    for axes in grid:
         axes.set_xlabel(label)
         _set_axis(axes, texts, places, numeric)
     _legend(figure, engines_of(rows), any(row[c] is None for row in rows for c in QUANTITIES))
@@ -100,7 +92,7 @@ def _draw_line(axes, rows, column, key, place):
     ordered = sorted(rows, key=lambda row: place[row[key]])
     x = [place[row[key]] for row in ordered]
     y = [np.nan if row[column] is None else row[column] for row in ordered]
-    axes.plot(x, y, color=colour, markeredgecolor="white", markeredgewidth=0.8, **LOOKS[engine])
+    axes.plot(x, y, color=colour, markeredgecolor="white", markeredgewidth=0.8, **style.LOOKS[engine])
     missing = [at for at, value in zip(x, y) if np.isnan(value)]
     crosses = axes.plot(
         missing, [0.03] * len(missing), "x", color=colour, markersize=5, transform=axes.get_xaxis_transform()
@@ -123,7 +115,7 @@ def _set_axis(axes, texts, places, numeric):
 
 def _legend(figure, engines, with_missing):
     """Names of the engines above all panels."""
-    handles = [plt.Line2D([], [], color=style.ENGINE_COLOURS[engine][0], **LOOKS[engine]) for engine in engines]
+    handles = [plt.Line2D([], [], color=style.ENGINE_COLOURS[engine][0], **style.LOOKS[engine]) for engine in engines]
     names = [style.ENGINE_NAMES[engine] for engine in engines]
     if with_missing:
         handles.append(plt.Line2D([], [], color="#666666", marker="x", linestyle="", markersize=5))
@@ -166,3 +158,14 @@ def _draw_map(axes, values, x, y):
             axes.text(j, i, "–" if np.isnan(value) else f"{value:.3g}", ha="center", va="center", color=ink, size=8)
     if np.isfinite(values).any():
         axes.figure.colorbar(picture, ax=axes, pad=0.02).outline.set_visible(False)
+
+
+def sweep_html(rows, keys, convention, basis, drawn, directory):
+    """The page of a sweep: its rows (as of sweep_table) over the varied keys; basis: of its runs; drawn: {plot: title}."""
+    failed = [f"{row['directory']} failed: {row['exit_reason']}" for row in rows if row["state"] == "failed"]
+    alarmed = [f"{row['directory']}: accuracy alarm: {row['alarms']}" for row in rows if row["alarms"]]
+    mixed = [sentence] if (sentence := mixed_programs(rows)) else []
+    subtitle = f"{len(rows)} runs · curvature convention {convention} · {'with' if alarmed else 'no'} accuracy alarms"
+    sections = [("Plots", html.plots(drawn, directory))] * bool(drawn) + [("Runs", html.rows_table(rows, 5))]
+    sections += html.common_basis_section(basis)
+    return html.page("endoflow sweep", " and ".join(keys), subtitle, failed + alarmed + mixed, [], sections, directory)

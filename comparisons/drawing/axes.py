@@ -1,9 +1,19 @@
-"""The time axis shared by all plots against time."""
+"""How much of the meridian plane and of time plots, pictures and the page show."""
 
 from comparisons.measures.metrics import last_budding
 
 #: The axis becomes logarithmic when runs go on this many times longer than budding; it then starts at this fraction.
 LOG_FROM, LOG_START = 4, 1e-3
+
+
+def half_width(shapes):
+    """How far from the axis pictures of some shapes go, nm: to the rim, or somewhat beyond a closed membrane."""
+    return max(1.15 * shape.r.max() if shape.closed else shape.r[-1] for shape in shapes)
+
+
+def vertical_range(shapes, margin):
+    """(lowest, highest) z in nm of some shapes, with a margin."""
+    return min(s.z.min() for s in shapes) - margin, max(s.z.max() for s in shapes) + margin
 
 
 def long_after_budding(metrics):
