@@ -6,8 +6,10 @@
 #include <petscversion.h>
 
 #include <array>
+#include <cstdlib>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "phasefield/driver/history.h"
 #include "phasefield/last_word_of_mpi.h"
@@ -68,6 +70,12 @@ void hold_blas_to_one_thread() {
         reinterpret_cast<SetThreads>(symbol)(1);
 }
 
+/// Whether mpirun started all processes on this machine: it tells by the environment.
+bool on_one_machine() {
+    const char *here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE"), *all = std::getenv("OMPI_COMM_WORLD_SIZE");
+    return here != nullptr && all != nullptr && std::string_view(here) == all;
+}
+
 }  // namespace
 
 Environment::Environment(char** argv) {
@@ -76,6 +84,8 @@ Environment::Environment(char** argv) {
     // Open MPI 4.1 writes the name of a file it opens beside the directory's into 256 bytes, and aborts where they do
     // not suffice. Shared file pointers, which that component is for, nobody uses here.
     setenv("OMPI_MCA_sharedfp", "^lockedfile", 0);
+    // Processes of one machine share memory; without a network Open MPI 5's TCP says that it reaches nobody.
+    if (on_one_machine()) setenv("OMPI_MCA_btl", "^tcp", 0);
     implementation_ = std::make_unique<Implementation>(argv[0]);
     let_mpi_leave_the_last_word();
     hold_blas_to_one_thread();

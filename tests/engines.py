@@ -1,6 +1,7 @@
 """Small runs of the real engines, for tests of what they write and of what happens to them."""
 
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -47,6 +48,13 @@ def options(settings):
 def launcher(processes):
     """Words before a command that is to run on several processes, of which there may be more than cores."""
     return ["mpirun", "-n", str(processes), "--oversubscribe"] if processes > 1 else []
+
+
+def launcher_passes_on_last_words():
+    """Whether mpirun passes on what processes write while it ends them: Open MPI's does not from version 5 on."""
+    said = subprocess.run(["mpirun", "--version"], capture_output=True, text=True).stdout
+    found = re.search(r"Open MPI\) (\d+)", said)
+    return found is None or int(found[1]) < 5
 
 
 def tiny_run(test, name, *settings):
