@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shared/model/time_scale.h"
-
 namespace endoflow::phasefield {
 
 namespace {
@@ -17,7 +15,8 @@ bool in_free_space(const Parameters& p) {
 
 FlowDomain flow_domain(const Parameters& p) {
     if (!in_free_space(p)) return {p.domain.radius, 0, p.domain.height};
-    const double reach = p.phase_field.free_space * size_of_membrane(p.domain), centre = p.domain.membrane_height;
+    const double longer_axis = std::max(p.domain.spheroid_polar_axis, p.domain.spheroid_equatorial_axis);
+    const double reach = p.phase_field.free_space * longer_axis, centre = p.domain.membrane_height;
     return {reach, centre - reach, centre + reach};
 }
 

@@ -19,11 +19,6 @@ constexpr double longest_part_of_exchange = 0.02;
 
 }  // namespace
 
-double size_of_membrane(const DomainParameters& d) {
-    if (d.kind == DomainKind::box) return d.radius;
-    return std::max(d.spheroid_polar_axis, d.spheroid_equatorial_axis);
-}
-
 double largest_stiffness(const MembraneParameters& membrane) {
     const BendingModel model(membrane);
     return std::max(model.stiffness(0).value, model.stiffness(1).value);

@@ -4,9 +4,6 @@
 
 namespace endoflow {
 
-/// What the membrane's size is measured by [nm]: domain.radius, of a vesicle the longer semi-axis.
-[[nodiscard]] double size_of_membrane(const DomainParameters& domain);
-
 /// β [pN nm], the larger one of the bare and the coated membrane's.
 [[nodiscard]] double largest_stiffness(const MembraneParameters& membrane);
 
@@ -16,8 +13,8 @@ namespace endoflow {
 ///   2πβ/|F|     the radius of a tube that the pole force F pulls
 ///   ∛(β/|p|)    where the pressure p bends the membrane
 ///   r_c/2       the radius of the sphere into which line energy closes a patch of radius r_c
-/// as far as there are such, and the membrane's size; of a vesicle the shorter semi-axis. β is largest_stiffness.
-/// 14.1 nm in the standard case.
+/// as far as there are such, and domain.radius; of a vesicle the shorter semi-axis instead of it. β is
+/// largest_stiffness. 14.1 nm in the standard case.
 [[nodiscard]] double length_of_structure(const Parameters& parameters);
 
 /// The time [µs] in which a membrane that is bent over a length ℓ relaxes: (ν₁ + ν₂) ℓ³/β with fluids, ℓ² ε_c²/(M β)
