@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What the laboratory in the browser costs, beside the program: bench/laboratory.py build/web/index.html build/endoflow [--repeats N].
 
-Each repeat opens the page in a fresh Chromium, waits for the standard case's budding, and runs the program on the same
+Each repeat opens the page in a fresh Chromium that has come to rest, waits for the standard case's budding, and runs the program on the same
 case with one thread. Medians of the repeats; ratios are taken inside one repeat. CPU times hold on a machine that does
 other things too: those of the worker's thread, of the page's whole process with drawing and the compilation of
 WebAssembly, and of the program; until the first motion, those of the page's own thread and of the worker, which wait
@@ -23,6 +23,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "comparis
 import browser
 
 TICK = os.sysconf("SC_CLK_TCK")
+
+REST = 2  # s: a browser that has just been started loads its own parts for about one
 
 # Times of the pictures [ms since the page was opened], and which of them was the first to show a membrane that had moved.
 WATCH = """
@@ -70,6 +72,7 @@ def page_costs(page):
     """One visit until the standard case has budded."""
     with browser.Browser(1366, 768) as visited:
         visited._call("Page.addScriptToEvaluateOnNewDocument", {"source": WATCH})
+        time.sleep(REST)
         visited.open(page, "window.seen?.motion > 0")
         pid = renderer(visited)
         first_cpu = worker_seconds(pid) + threads(pid)[pid][1]

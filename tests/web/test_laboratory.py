@@ -270,6 +270,13 @@ class TakenAlong(Page):
                 self.wait("laboratory.state === 'running' && laboratory.run.rows.length > 1")
                 self.assertEqual(self.browser.evaluate("document.getElementById('preset').value"), name)
 
+    def test_axes_of_a_membrane_at_rest(self):
+        """Heights are round-off before the first step of a membrane that starts flat."""
+        self.open()
+        self.assertEqual(self.browser.evaluate("ticks(1.06e-14, 3).length"), 3)
+        row = "{time: 0, neck: null, height: 1e-15, energy: 0}"
+        self.browser.evaluate(f"laboratory.charts[1].draw({{rows: [{row}], events: {{}}}}, null)")
+
     def test_no_request_leaves_the_page(self):
         self.open()
         self.assertEqual(self.browser.evaluate(FORBIDDEN), "connect-src")

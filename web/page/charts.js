@@ -1,13 +1,11 @@
 "use strict";
 // Neck, height and energy against time, each with the kept curve behind it.
 
-/** Round numbers between two, some `count` of them. */
-function ticks(low, high, count) {
-  const rough = (high - low) / count || 1, power = 10 ** Math.floor(Math.log10(rough));
+/** Round numbers from 0 to `high` > 0, some `count` of them. */
+function ticks(high, count) {
+  const rough = high / count, power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((x) => x * power).find((x) => x >= rough * 0.999);
-  const marks = [];
-  for (let x = Math.ceil(low / step) * step; x <= high * (1 + 1e-9) + 1e-12; x += step) marks.push(Number(x.toPrecision(9)));
-  return marks;
+  return Array.from({ length: Math.floor((high / step) * (1 + 1e-9)) + 1 }, (_, i) => Number((i * step).toPrecision(9)));
 }
 
 class Chart {
@@ -25,7 +23,8 @@ class Chart {
     const own = this.values(rows), old = kept ? this.values(kept.rows) : [];
     const all = own.concat(old), left = 46, bottom = height - 20, top = 8, right = width - 8;
     const end = Math.max(rows.at(-1)?.time ?? 0, kept?.rows.at(-1)?.time ?? 0) || 1;
-    const most = all.reduce((value, row) => Math.max(value, row[this.column]), 0) || 1;
+    const largest = all.reduce((value, row) => Math.max(value, row[this.column]), 0);
+    const most = largest > 1e-6 ? largest : 1;  // less is round-off of a membrane at rest
     const x = (t) => left + ((right - left) * t) / end, y = (value) => bottom - ((bottom - top) * value) / (1.06 * most);
     context.font = "12px system-ui, sans-serif";
     context.lineWidth = 1;
@@ -33,7 +32,7 @@ class Chart {
     context.fillStyle = colours.muted;
     context.textAlign = "right";
     context.textBaseline = "middle";
-    for (const mark of ticks(0, 1.06 * most, 3)) {
+    for (const mark of ticks(1.06 * most, 3)) {
       context.beginPath();
       context.moveTo(left, y(mark));
       context.lineTo(right, y(mark));
@@ -41,7 +40,7 @@ class Chart {
       context.fillText(mark >= 1e4 ? `${short(mark / 1e3)}k` : String(mark), left - 6, y(mark));
     }
     context.textBaseline = "alphabetic";
-    const marks = ticks(0, end, Math.max(3, Math.floor(width / 70)));
+    const marks = ticks(end, Math.max(3, Math.floor(width / 70)));
     marks.forEach((mark, i) => {
       context.textAlign = i === 0 ? "left" : x(mark) > right - 14 ? "right" : "center";
       context.fillText(i === marks.length - 1 ? `${mark} µs` : String(mark), x(mark), height - 4);
