@@ -48,7 +48,7 @@ double power(const Parameters& p, const Radial& u_r, const Axial& u_z) {
 
 TEST_CASE("every load does its virtual work", "[loads]") {
     // δG = σ δA − p δV − F δz̄ of the flat membrane: exact integrals. Gauss points on cells of ε leave some 1e-4 of the
-    // integral of δ_m across the layer.
+    // integral of δ_Γ across the layer.
     Parameters none = small_case();
     none.phase_field.far_refinements = 0;
     const double R = none.domain.radius;

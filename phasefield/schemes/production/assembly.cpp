@@ -7,6 +7,7 @@
 #include <array>
 #include <type_traits>
 
+#include "phasefield/schemes/production/cell_points.h"
 #include "phasefield/schemes/production/external_loads.h"
 #include "shared/numerics/vector_clones.h"
 
@@ -39,7 +40,7 @@ Fields<Number> fields_from(const PointValues& values) {
 
 /// From ψ's second derivatives rr, rz, zz, the last variables, where the normal is n.
 template <class Number>
-GradientChange<Number> change_from(const std::array<double, 3>& second, const DirectionOf<Number>& n,
+GradientChange<Number> change_from(const std::array<double, 3>& second, const PlaneVector<Number>& n,
                                    const Number& around) {
     std::array<Number, 3> x;
     for (unsigned int o = 0; o < 3; ++o) {
@@ -51,7 +52,7 @@ GradientChange<Number> change_from(const std::array<double, 3>& second, const Di
 
 }  // namespace
 
-// The equations with their derivatives in all variables are most of an assembly, and vector arithmetic.
+// The equations are most of an assembly, and vector arithmetic: 36 derivatives of each number, or those of W.
 ENDOFLOW_VECTOR_CLONES [[gnu::flatten]] Fields<FeatureDual> equations_at(const Fields<FeatureDual>& x, double r,
                                                                          const PointPast& past,
                                                                          const GradientChange<FeatureDual>& change,
@@ -59,8 +60,11 @@ ENDOFLOW_VECTOR_CLONES [[gnu::flatten]] Fields<FeatureDual> equations_at(const F
                                                                          const LayerEnergy& energy) {
     return point_equations(x, r, past, change, step, energy);
 }
-Fields<double> equations_at(const Fields<double>& x, double r, const PointPast& past,
-                            const GradientChange<double>& change, const StepNumbers& step, const LayerEnergy& energy) {
+ENDOFLOW_VECTOR_CLONES [[gnu::flatten]] Fields<double> equations_at(const Fields<double>& x, double r,
+                                                                    const PointPast& past,
+                                                                    const GradientChange<double>& change,
+                                                                    const StepNumbers& step,
+                                                                    const LayerEnergy& energy) {
     return point_equations(x, r, past, change, step, energy);
 }
 
@@ -102,8 +106,7 @@ class CellEquations {
 
     /// Calls visit(q, measure, rows) at the quadrature points of the cell; measure is r dr dz.
     template <class Number, class Visit>
-    void on_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell, const Visit& visit) {
-        const CellBox box = cell_box(cell);
+    void on_cell(const Cell& cell, const CellBox& box, const Visit& visit) {
         const auto& past = history_->points.at(cell->active_cell_index());
         const auto& manufactured = history_->manufactured;
         cell->get_dof_values(*iterate_, values_);
@@ -132,7 +135,7 @@ class CellEquations {
     template <class Number>
     void take_off(const PointValues& solution, double r, const PointPast& past, const GradientChange<double>& change,
                   Fields<Number>& rows) const {
-        const auto own = point_equations(fields_from<double>(solution), r, past, change, *step_, *energy_);
+        const auto own = equations_at(fields_from<double>(solution), r, past, change, *step_, *energy_);
         for (unsigned int f = 0; f < n_fields; ++f) {
             rows[f].value = rows[f].value - own[f].value;
             rows[f].r = rows[f].r - own[f].r;
@@ -159,9 +162,8 @@ void assemble_cells(const Space& space, const EquationPattern& pattern, CellEqua
     std::vector<Coefficients> residual(n_features, Coefficients(n_points)),
         jacobian(with_jacobian ? pattern.entries.size() : 0, Coefficients(n_points));
 
-    for (const auto& cell : space.dofs.active_cell_iterators()) {
-        if (!cell->is_locally_owned()) continue;
-        equations.on_cell<Number>(cell, [&](unsigned int q, double measure, const auto& rows) {
+    for_each_cell(space, [&](const Cell& cell, const CellBox& box) {
+        equations.on_cell<Number>(cell, box, [&](unsigned int q, double measure, const auto& rows) {
             for (unsigned int k = 0; k < n_features; ++k)
                 residual[k][q] = measure * value_of(feature(rows[k / 3], k % 3));
             if constexpr (with_jacobian)
@@ -189,7 +191,7 @@ void assemble_cells(const Space& space, const EquationPattern& pattern, CellEqua
             system.add(cell, cell_matrix, cell_rhs);
         else
             system.add(cell, cell_rhs);
-    }
+    });
 }
 
 }  // namespace
@@ -213,11 +215,11 @@ double net_vertical_force(const Space& space, const LayerEnergy& energy, const S
                           const StepPast& history, const Vector& solution) {
     CellEquations equations(space, energy, step, history, solution);
     double sum = 0;
-    for (const auto& cell : space.dofs.active_cell_iterators())
-        if (cell->is_locally_owned())
-            equations.on_cell<double>(cell, [&](unsigned int /*q*/, double measure, const auto& rows) {
-                sum -= two_pi * measure * rows[velocity_z].value;
-            });
+    for_each_cell(space, [&](const Cell& cell, const CellBox& box) {
+        equations.on_cell<double>(cell, box, [&](unsigned int /*q*/, double measure, const auto& rows) {
+            sum -= two_pi * measure * rows[velocity_z].value;
+        });
+    });
     return dealii::Utilities::MPI::sum(sum, space.dofs.get_communicator());
 }
 

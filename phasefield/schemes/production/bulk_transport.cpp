@@ -69,7 +69,7 @@ std::shared_ptr<const BulkSupply> BulkTransport::foresee(const BulkStep& step) {
 }
 
 /// Molecules are counted by BDF, too: with m = ∫ c dA, p = a₀c_∞ ∫ χd and f what the walls make up for, the derivative
-/// of m − p − f is to vanish. What is not right after the solve is the difference of j under δ and under δ_m, of the
+/// of m − p − f is to vanish. What is not right after the solve is the difference of j under δ and under δ_Γ, of the
 /// order of ε², what Newton's method has left of m, and what the layer's motion and a new mesh have made of ∫ χd. A
 /// uniform j makes up for it, at the membrane, where it has come from.
 BulkMeasures BulkTransport::take(const BulkStep& step, const std::vector<double>& masses, double mass, double tau) {

@@ -3,16 +3,15 @@
 #include <deal.II/base/quadrature.h>
 
 #include "phasefield/fem/component_field.h"
+#include "phasefield/schemes/production/cell_points.h"
 #include "phasefield/schemes/production/past.h"
 
 namespace endoflow::phasefield::production {
 
-/// The rim tension σ: ∮ δ_m σ v_r dA where the membrane leaves the box at r = R, flat. Without it λ = 0 there is
+/// The rim tension σ: ∮ δ_Γ σ v_r dA where the membrane leaves the box at r = R, flat. Without it λ = 0 there is
 /// natural, with it λ = σ.
 class RimTension {
   public:
-    using Cell = dealii::DoFHandler<2>::active_cell_iterator;
-
     RimTension(const Space& space, const StepNumbers& step);
 
     /// Adds the force on the test functions of a cell to its right-hand side, over 2π.

@@ -46,7 +46,7 @@ struct ThicknessCurve {
 };
 
 /// ε within the cells of this process: bilinear between their corners, so that it is nowhere beyond what it is there,
-/// not even where the closest point jumps, and continuous: a jump would be a line of force, as large as the moment b.
+/// not even where the closest point jumps, and continuous: a jump would be a line of force, as large as the moment m.
 class CellThickness {
   public:
     CellThickness(ThicknessCurve curve, const dealii::Triangulation<2>& mesh);

@@ -53,8 +53,8 @@ void ProductionScheme::follow(const MembraneCurve& curve) {
         bulk_->renew();
         numbers_.supply = bulk_->supply();
     }
-    // Cells are coarsened outside of the layer alone; what that changes in ∫δ_m c is restored to round-off. s, a
-    // density, stays: what changes in ∫δ_m s is the area that the layer measures, and would be a strain.
+    // Cells are coarsened outside of the layer alone; what that changes in ∫δ_Γ c is restored to round-off. s, a
+    // density, stays: what changes in ∫δ_Γ s is the area that the layer measures, and would be a strain.
     restore_molecules();
     for (auto& solution : solutions_) impose_boundary_values(space_, parameters_, solution);
     present();

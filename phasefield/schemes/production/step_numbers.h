@@ -56,7 +56,7 @@ struct StepNumbers {
     MembraneWeight weight;
     SchemeRates rates;
     double speed = std::numeric_limits<double>::max();  // of the membrane [nm/µs]
-    double profile_relaxation;                          // M of this step [nm/µs]
+    double profile_relaxation;                          // M_p of this step [nm/µs]
     double molecules_alignment = 1;                     // part of least_normal_diffusivity
     double divergence_penalty = 0;                      // of ∇·u over ν
     bool inextensible;                                  // s is one but for what the tension leaves
