@@ -3,8 +3,11 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "one_step.h"
+#include "phasefield/schemes/production/equation_pattern.h"
 #include "phasefield/schemes/production/point_equations.h"
 #include "some_point.h"
 
@@ -107,7 +110,6 @@ PointPast some_past(const Parameters& p) {
 void check_jacobian(const Parameters& p, const LayerEnergy& energy, const StepNumbers& step) {
     const PointPast past = some_past(p);
     // The change of ψ's gradient follows the fields.
-    constexpr std::size_t n_variables = n_features + 3;
     using Variables = Dual<n_variables>;
     const auto rows_at = [&](const auto& x, const auto& change) {
         return point_equations(x, point_radius, past, change, step, energy);
@@ -216,7 +218,45 @@ TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
                                 loaded(), coupled(), growing(Exchange::reservoir), growing(Exchange::edge)})
         check_jacobian(p, LayerEnergy(p), numbers(p));
     const Parameters p;
-    check_jacobian(p, LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 3})), numbers(p));
+    check_jacobian(p, LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 3}), true), numbers(p));
+}
+
+TEST_CASE("the pattern of the Jacobian holds what the equations contain, and nothing else", "[production]") {
+    // In one case or another, at points without special meaning.
+    Parameters without_flow;
+    without_flow.fluid.dynamics = Dynamics::geometric;
+    Parameters sensing = coupled();
+    const Parameters exchanging = growing(Exchange::reservoir);
+    sensing.molecules.exchange = exchanging.molecules.exchange;
+    sensing.molecules.curvature_sensing = exchanging.molecules.curvature_sensing;
+    sensing.molecules.molecule_area = exchanging.molecules.molecule_area;
+    sensing.molecules.off_rate = exchanging.molecules.off_rate;
+    std::set<std::pair<unsigned int, unsigned int>> found, said;
+    for (const Parameters& p : {of(Transport::cahn_hilliard), of(Transport::fickian), loaded(), coupled(), exchanging,
+                                sensing, without_flow}) {
+        using Variables = Dual<n_variables>;
+        PointPast past = some_past(p);
+        Fields<Variables> x;
+        auto values = some_point();
+        for (unsigned int k = 0; k < n_features; ++k)
+            part(x[k / 3], k % 3) = Variables::variable(part(values[k / 3], k % 3), k);
+        const auto second = [](double value, unsigned int k) { return Variables::variable(value, n_features + k); };
+        const auto change = gradient_change(own_normal(x[distance], past), second(0.3, 0), second(-0.2, 1),
+                                            second(0.07, 2), (1 / point_radius) * x[distance].r);
+        auto rows = point_equations(x, point_radius, past, change, numbers(p), LayerEnergy(p));
+        for (unsigned int row = 0; row < n_features; ++row)
+            for (unsigned int column = 0; column < n_variables; ++column)
+                if (part(rows[row / 3], row % 3).partial[column] != 0) found.emplace(row, column);
+    }
+    for (const auto& [row, column] : equation_pattern()) said.emplace(row, column);
+    for (const auto& [row, column] : found) {
+        CAPTURE(row, column);
+        CHECK(said.contains({row, column}));
+    }
+    for (const auto& [row, column] : said) {
+        CAPTURE(row, column);
+        CHECK(found.contains({row, column}));
+    }
 }
 
 TEST_CASE("any exchange law brings its molecules, and the Jacobian knows it", "[production]") {
@@ -241,8 +281,8 @@ TEST_CASE("forces are the variation of the energy, whatever its terms", "[produc
     const Parameters p;
     check_variation(LayerEnergy(p));
     check_variation(LayerEnergy(coupled()));
-    check_variation(LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 0})));
-    check_variation(LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 3})));
+    check_variation(LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 0}), false));
+    check_variation(LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 3}), true));
 }
 
 TEST_CASE("a sheet's curvatures tell how much longer it is than the membrane", "[production]") {

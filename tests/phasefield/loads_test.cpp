@@ -41,7 +41,7 @@ double power(const Parameters& p, const Radial& u_r, const Axial& u_z) {
     const std::vector<Vector> past{x};
     past.front().update_ghost_values();
     const StepPast history(one.space, numbers, past, {-2000}, {1}, past.front());
-    return load_power(one.space, numbers, history, x);
+    return load_power({one.space, one.energy, numbers, history}, x);
 }
 
 }  // namespace

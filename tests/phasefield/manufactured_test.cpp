@@ -82,7 +82,7 @@ struct KnownStep {
     /// From the interpolated one.
     Vector solve() {
         Vector x = known();
-        one.solver.solve(one.space, numbers, history, x);
+        one.solver.solve({one.space, one.energy, numbers, history}, x);
         return x;
     }
 

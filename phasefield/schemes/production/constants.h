@@ -79,6 +79,7 @@ inline constexpr Constant constants[] = {
      "of a step beyond time.max_step's default, at most, where one factorisation did not serve"},
     {"almost_all", 0.7, "", "of the time left: one step, or ever shorter ones would approach the end"},
     {"tolerated_excess", 2, "", "of the error over its tolerance, beyond which a step is repeated"},
+    {"retry", 0.5, "", "of a step, its repetition at most; its square at least"},
     {"smallest_step", 1e-5, "the first step", "below it the run ends"},
     {"relaxation_per_speed", 2000, "", "M_p is at most this many times the speed of the membrane"},
     {"largest_motion", 1.5, "ε", "of the membrane in one step"},

@@ -51,7 +51,8 @@ double RimTension::power(const Cell& cell, const Vector& solution) {
     return sum;
 }
 
-double load_power(const Space& space, const StepNumbers& step, const StepPast& history, const Vector& solution) {
+double load_power(const StepProblem& problem, const Vector& solution) {
+    const auto& [space, energy, step, history] = problem;
     if (step.loads.none()) return 0;
     const dealii::QGauss<2> quadrature(gauss_points(step.numerics));
     double sum = 0;

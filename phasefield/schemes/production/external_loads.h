@@ -33,6 +33,6 @@ class RimTension {
 };
 
 /// Power of rim tension, pressure and pole force at the end of a step [pN nm/µs]; collective.
-double load_power(const Space& space, const StepNumbers& step, const StepPast& history, const Vector& solution);
+double load_power(const StepProblem& problem, const Vector& solution);
 
 }  // namespace endoflow::phasefield::production

@@ -17,9 +17,10 @@ inline constexpr double steepest_sheets = constant("steepest_sheets");
 /// The membrane's energy as the layer carries it, with what its equations ask for at every point.
 struct LayerEnergy {
     /// An energy without a part of the coat's edge.
-    explicit LayerEnergy(const MembraneEnergy& whole) : LayerEnergy(whole, whole, {}) {}
+    LayerEnergy(const MembraneEnergy& whole, bool knows_gradient) : LayerEnergy(whole, whole, {}, knows_gradient) {}
     explicit LayerEnergy(const Parameters& parameters)
-        : LayerEnergy(membrane_energy(parameters), bending_energy(parameters), line_energy(parameters)) {}
+        : LayerEnergy(membrane_energy(parameters), bending_energy(parameters), line_energy(parameters),
+                      energetically_coupled(parameters.molecules)) {}
 
     MembraneEnergy density, bending, edge;  // E + E_c, and its parts
     double bare_stiffness;                  // β(0) = ∂²e/∂κ² of the flat membrane without molecules [pN nm]
@@ -34,12 +35,12 @@ struct LayerEnergy {
     [[nodiscard]] double smoothing(double epsilon) const { return moment_floor * epsilon / bare_stiffness; }
 
   private:
-    LayerEnergy(MembraneEnergy whole, MembraneEnergy of_bending, MembraneEnergy of_edge)
+    LayerEnergy(MembraneEnergy whole, MembraneEnergy of_bending, MembraneEnergy of_edge, bool knows_gradient)
         : density(std::move(whole)),
           bending(std::move(of_bending)),
           edge(std::move(of_edge)),
           bare_stiffness(density.density(0, 0, 0).second[local::curvature][local::curvature]),
-          coupled(density.density(0.1, 0.4, 0.02).partial[local::squared_gradient] != 0) {}
+          coupled(knows_gradient) {}
 };
 
 /// c as the energy sees it: c itself on [0, 1], bent smoothly to stay within a twentieth of it outside. A sharp limit

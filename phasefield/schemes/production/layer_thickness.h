@@ -41,6 +41,13 @@ struct ThicknessCurve {
     /// Of a membrane that moves with its velocity for `time` [µs].
     ThicknessCurve(const MembraneCurve& curve, double time, const Parameters& parameters);
 
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive("thickness_r", r);
+        archive("thickness_z", z);
+        archive("thickness_epsilon", epsilon);
+    }
+
     /// At any point [nm]; only where the curve is not empty.
     [[nodiscard]] double at(double r, double z) const;
 };
