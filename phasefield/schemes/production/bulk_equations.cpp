@@ -17,7 +17,6 @@ namespace endoflow::phasefield::production {
 namespace {
 
 constexpr double bulk_floor = constant("bulk_floor");
-constexpr double supply_alignment = constant("supply_alignment");
 
 /// χ of the fluid that has the molecules.
 double bulk_indicator(double phi, const BulkNumbers& numbers) {
@@ -56,7 +55,7 @@ BulkPoint bulk_point(const BulkProblem& problem, BulkExchange exchange, const Ce
             x[velocity_z].value,
             layer.delta,
             layer.delta + surface_floor / epsilon,
-            supply_alignment * epsilon * epsilon,
+            strong_alignment * epsilon * epsilon,
             {psi.r / length, psi.z / length},
             j.value,
             implicit ? j.partial[0] : 0};

@@ -16,19 +16,17 @@ struct Constant {
 /// All of them; the files that use one take it from here by constant(), and run.json lists them.
 inline constexpr Constant constants[] = {
     // The equations
-    {"tail_cut", 1e-3, "max δ", "f of the energy's weight δ²/(δ + f): 4 ε from the membrane normals may cross"},
-    {"weight_cut", 1e-4, "(1 − φ²)²", "below it δ_Γ is cut off"},
+    {"tail_cut", 1e-3, "max δ",
+     "f of the energy's weight δ²/(δ + f): 4 ε from the membrane normals may cross, and the last solution's take over"},
+    {"weight_cut", 1e-4, "(1 − φ²)²", "below it δ_Γ is cut off, and the last solution's normals take over for c"},
     {"surface_floor", 1.2e-8, "1/ε", "added to δ, so that G, μ and s are defined everywhere"},
     {"largest_sheet_bend", 0.5, "", "of κψ, by which the sheet at the distance ψ is longer than the membrane"},
     {"moment_floor", 3.33e-5, "ε", "continues m smoothly where the energy has no weight"},
     {"steepest_sheets", 0.25, "", "ε over the radius around the axis at most, where the energy accounts for it"},
     {"gradient_floor", 1e-3, "", "of |∇ψ| in the normal"},
     {"concentration_margin", 0.05, "", "how far beyond 0 and 1 the laws see c"},
-    {"force_alignment", 20, "ε²", "keeps G constant along the normal"},
-    {"moment_alignment", 20, "ε²", "the same for m"},
-    {"potential_alignment", 1000, "ε²", "the same for a coupled energy's μ, which on each sheet is another one"},
-    {"step_alignment", 20, "ε²/step", "the same for c and s, and of ∂ψ/∂t"},
-    {"alignment_floor", 1e-4, "(1 − φ²)²", "the same for λ and p_Γ"},
+    {"alignment", 20, "ε²", "keeps G and m constant along the normal, and per step c, s and ∂ψ/∂t"},
+    {"strong_alignment", 1000, "ε²", "the same for what each sheet gives another value: a coupled energy's μ, a bulk"},
     {"layer_pressure_alignment", 0.03, "1/ν", "keeps p_Γ constant along the normal"},
     {"pressure_leak", 1.2e-5, "1/(ν ε)", "∇·u per p_Γ: decides between p and δ p_Γ"},
     {"divergence_penalty", 0.124, "ν V over the membrane's speed",
@@ -48,18 +46,11 @@ inline constexpr Constant constants[] = {
     {"smallest_viscosity", 0.2, "", "in the layer, of the smaller one, for larger ratios"},
     {"ratio_step", 1.15, "", "of the ratios through which δ_Γ is found"},
     {"smallest_square", -5.2, "", "of φ² in a δ_Γ without φ⁴: just below the zero for equal viscosities"},
-    {"monotonic_square", -1.25, "", "H_Γ stays within ±½ from here on"},
     {"equal_viscosities", 1e-3, "", "relative difference below which the excess fluidity is round-off"},
     {"smallest_fluidity", 0.5, "", "in the layer, of the smaller one, with harmonic means"},
     {"rim_half_width", 4.5, "ε", "where ψ and G are held at the rim: the layer as far as it weighs anything"},
     // The bulk (bulk_equations.cpp)
     {"bulk_floor", 1e-6, "", "χ of the fluid that has no molecules, so that the bulk is defined everywhere"},
-    {"supply_alignment", 1000, "ε²", "keeps what the membrane sees of the bulk constant along the normal"},
-    // The past of a step (past.cpp)
-    {"last_normal_below", 1e-3, "(1 − φ²)²", "below it the last solution's closest normal takes over"},
-    {"last_molecules_normal_below", 1e-4, "(1 − φ²)²",
-     "the same for c, within the layer: the force e_c ∇c is some 900 pN"},
-    {"loaded_layer", 1e-10, "(1 − φ²)²", "beyond it, where δ_Γ is cut off, no pole force is looked up"},
     {"shortest_gradient", 0.3, "", "below it normals fade: they are about to cross"},
     // The layer's thickness (layer_thickness.cpp)
     {"thinnest", 0.125, "phase_field.epsilon", "the layer, however narrow the membrane"},
@@ -68,9 +59,6 @@ inline constexpr Constant constants[] = {
     {"thinning_slope", 0.1, "", "of the thickness along the membrane, at most"},
     {"thinning_window", 1, "phase_field.epsilon", "half the arc from which the membrane's curvature is taken"},
     // Steps (production_scheme.cpp)
-    {"highest_order", 3, "", "of BDF"},
-    {"guess_points", 2, "", "times from which Newton's method and most normals start"},
-    {"first_steps", 4, "", "before the error can be estimated"},
     {"default_tolerance", 1e-4, "", "time.tolerance where that is 0"},
     {"error_part", 0.05, "time.tolerance", "error of one step: the errors of the steps add up"},
     {"safety", 0.85, "", "of the step"},
@@ -104,8 +92,7 @@ inline constexpr Constant constants[] = {
     {"fine_band", 3, "ε", "half-width of the finer cells, and of those in the layer where phase_field.band_width is 0"},
     {"cells_slack", 1.05, "", "cells of a thinner layer may be this much wider, in units of ε"},
     {"neck_cells", 0.25, "", "largest cell where the membrane is narrow, in units of its radius there"},
-    {"motion_with_flow", 1.5, "ε", "after which the mesh follows"},
-    {"motion_without_flow", 0.5, "ε", "the same without flow"},
+    {"motion_without_flow", 0.5, "ε", "after which the mesh follows without flow; with it largest_motion"},
     {"most_neck_levels", 2, "", "with cells of 4/3 ε: necks below 1.4 ε have left the model anyway"},
     {"most_passes", 8, "", "of refinement: a cell changes by one level per pass"},
 };

@@ -11,7 +11,8 @@
 namespace endoflow::phasefield::production {
 
 inline constexpr double moment_floor = constant("moment_floor");
-inline constexpr double moment_alignment = constant("moment_alignment");
+inline constexpr double alignment = constant("alignment");
+inline constexpr double strong_alignment = constant("strong_alignment");
 inline constexpr double steepest_sheets = constant("steepest_sheets");
 
 /// The membrane's energy as the layer carries it, with what its equations ask for at every point.
@@ -29,7 +30,7 @@ struct LayerEnergy {
     /// D_m of (D) [nm²/(pN nm)].
     template <class Thickness>
     [[nodiscard]] Thickness compliance(const Thickness& epsilon) const {
-        return (moment_alignment / bare_stiffness) * epsilon * epsilon;
+        return (alignment / bare_stiffness) * epsilon * epsilon;
     }
     /// Continues m where δ_E is next to nothing.
     [[nodiscard]] double smoothing(double epsilon) const { return moment_floor * epsilon / bare_stiffness; }

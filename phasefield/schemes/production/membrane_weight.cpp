@@ -14,7 +14,7 @@ namespace endoflow::phasefield::production {
 namespace {
 
 constexpr double smallest_square = constant("smallest_square");
-constexpr double monotonic_square = constant("monotonic_square");
+constexpr double monotonic_square = -1.25;  // δ_Γ = (1 − b/5 + b φ²) δ ≥ 0 from here on
 constexpr double equal_viscosities = constant("equal_viscosities");
 constexpr double smallest_fluidity = constant("smallest_fluidity");
 constexpr double largest_ratio = constant("largest_ratio");

@@ -24,7 +24,7 @@ void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const P
     if (step.fluid.dynamics == Dynamics::geometric) moving += step.fluid.normal_mobility * x[normal_force].value;
     const PlaneVector<Number> changing{step.rate * psi.r + past.slope_r, step.rate * psi.z + past.slope_z};
     const PlaneVector<Number> along = normal_part(N, changing);
-    const Number aligning = (step_alignment * p.epsilon * widest) * p.layer.well;
+    const Number aligning = (alignment * p.epsilon * widest) * p.layer.well;
     const Number restoring = (step.profile_relaxation * widest) * p.layer.well * (dot(N, psi) - 1.0);
     const double far = step.rates.profile_relaxation * widest * far_part;
     row[distance] = {length * p.delta_Gamma * moving, aligning * along.r + restoring * N.r + far * (psi.r - N.r),

@@ -15,15 +15,10 @@ namespace endoflow::phasefield::production {
 // along it, −∇·(D N N·∇y) on the left side of the field's equation. Besides, m is kept so by a term of (D), ∂ψ/∂t by
 // one of (35), and what the membrane sees of a bulk by one of its own equation.
 
-inline constexpr double force_alignment = constant("force_alignment");
-inline constexpr double step_alignment = constant("step_alignment");
-inline constexpr double alignment_floor = constant("alignment_floor");
-inline constexpr double potential_alignment = constant("potential_alignment");
-
 /// A diffusivity along the normal [nm²/µs] made fast within a step: δ_Γ is negative in the layer's tails, where without
 /// it y would grow.
 inline double within_a_step(double diffusivity, double epsilon, const StepNumbers& step) {
-    return diffusivity + step_alignment * epsilon * epsilon * step.rate;
+    return diffusivity + alignment * epsilon * epsilon * step.rate;
 }
 
 /// D of c [nm²/µs], larger the thinner the layer. The shear within the layer tilts c's level lines off the normal, by
@@ -59,8 +54,8 @@ struct NormalDiffusion {
 /// the diffusion takes from G's net force is given back to the fluid. A coupled energy's μ would be another one on each
 /// sheet.
 inline constexpr NormalDiffusion normal_diffusions[] = {
-    {normal_force, [](double epsilon, const StepNumbers&) { return force_alignment * epsilon * epsilon; },
-     LayerWeight::delta, NormalOf::iterate, false},
+    {normal_force, [](double epsilon, const StepNumbers&) { return alignment * epsilon * epsilon; }, LayerWeight::delta,
+     NormalOf::iterate, false},
     {tension, [](double, const StepNumbers& step) { return -step.rates.tension_alignment; }, LayerWeight::well,
      NormalOf::line, true, [](const StepNumbers& step) { return -step.rates.tension_leak; }},
     {pressure_layer, [](double, const StepNumbers& step) { return -step.rates.layer_pressure_alignment; },
@@ -72,7 +67,7 @@ inline constexpr NormalDiffusion normal_diffusions[] = {
          return within_a_step(step.rates.stretching_alignment, epsilon, step);
      },
      LayerWeight::delta, NormalOf::line, true},
-    {molecule_potential, [](double epsilon, const StepNumbers&) { return potential_alignment * epsilon * epsilon; },
+    {molecule_potential, [](double epsilon, const StepNumbers&) { return strong_alignment * epsilon * epsilon; },
      LayerWeight::delta_E, NormalOf::line, false, nullptr, true},
 };
 
@@ -101,7 +96,7 @@ Number diffusivity(const PointGeometry<Number>& p, const PointPast& past, const 
     else if constexpr (of.weight == LayerWeight::delta_E)
         return value * p.delta_E;
     else
-        return value * (p.layer.well + alignment_floor);
+        return value * (p.layer.well + weight_cut);
 }
 
 template <std::size_t k, class Number>

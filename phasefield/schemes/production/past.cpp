@@ -18,10 +18,6 @@ namespace endoflow::phasefield::production {
 
 namespace {
 
-constexpr double last_normal_below = constant("last_normal_below");
-constexpr double last_molecules_normal_below = constant("last_molecules_normal_below");
-constexpr double loaded_layer = constant("loaded_layer");
-
 /// Σ_j a_j y(t_j) and the predicted normals at the quadrature points of one cell.
 class PastFields {
   public:
@@ -65,19 +61,19 @@ class PastFields {
                 const double w = well / (well + last_below);
                 return direction<double>(w * r + (1 - w) * last.r, w * z + (1 - w) * last.z);
             };
-            if (step_->pole_force && well > loaded_layer)
+            if (step_->pole_force && well > weight_cut * weight_cut)
                 points[q].pole_force = step_->pole_force->at(box.r0 + box.hr * x[0], box.z0 + box.hz * x[1]);
             const double around = predicted_.r[q] / (box.r0 + box.hr * x[0]);
             points[q].bulk = supply[q];
-            points[q].normal = normal(predicted_.r[q], predicted_.z[q], last_normal_below);
+            points[q].normal = normal(predicted_.r[q], predicted_.z[q], tail_cut);
             const auto change =
                 gradient_change(points[q].normal, predicted_.rr[q], predicted_.rz[q], predicted_.zz[q], around);
             points[q].arc = sheet_arc(predicted_.value[q], around, change.laplacian);
             points[q].metric = sheet_metric(predicted_.value[q], around, change.laplacian);
             points[q].even = evenness(change, points[q].thickness.value);
-            points[q].own = well / (well + last_normal_below);
+            points[q].own = well / (well + tail_cut);
             points[q].closest = {last.r, last.z};
-            points[q].molecules_normal = normal(ahead_r_[q], ahead_z_[q], last_molecules_normal_below);
+            points[q].molecules_normal = normal(ahead_r_[q], ahead_z_[q], weight_cut);
         }
     }
 

@@ -18,8 +18,8 @@ namespace endoflow::phasefield::production {
 
 namespace {
 
-constexpr std::size_t guess_points = count("guess_points");
-constexpr unsigned int first_steps = count("first_steps");
+constexpr std::size_t line_points = 2;
+constexpr unsigned int first_steps = highest_order + 1;  // before the error can be estimated well
 constexpr double almost_all = constant("almost_all");
 constexpr double largest_motion = constant("largest_motion");
 constexpr double newton_part = constant("newton_part");
@@ -144,7 +144,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
         numbers.pole_force = std::make_shared<const PoleForce>(contour(predicted).curve, numbers.loads);
     // Extrapolation of higher order would amplify what little the fields go back and forth in the layer's tails: with
     // the moment's noise, whose alignment is quadratic in it, Newton's first step would throw the whole bud off course.
-    Vector guess = polynomial(trial.before, end, std::min(guess_points, known));
+    Vector guess = polynomial(trial.before, end, std::min(line_points, known));
     impose_boundary_values(space_, parameters_, guess);
     trial.solution = copied(guess);
     if (bulk_) numbers.supply = bulk_->foresee({space_, energy_, numbers, bdf, guess});
