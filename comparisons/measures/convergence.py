@@ -295,7 +295,7 @@ def warnings(sharp, diffuse, records, times):
     for name, run in [("the sharp run", sharp), *((f"ε = {one.epsilon:g} nm", one.run) for one in diffuse)]:
         if left := unfinished(run.directory, run.record):
             found.append(f"{name} is {left}")
-        found += [f"{name}: {alarm}" for alarm in run.alarms if not alarm.startswith(MEASURED)]
+        found += [f"{name}: {alarm}" for alarm in run.alarms if alarm.name != MEASURED]
     for time in times:
         covered = len(at_time(records, time))
         if covered < len(diffuse):

@@ -22,7 +22,8 @@ class MeshTransfer {
     /// When the space is distributed on the adapted mesh.
     [[nodiscard]] std::vector<Vector> adapted(const Space& space) const {
         std::vector<Vector> out(count_, space.vector());
-        transfer_->interpolate(targets(out));
+        auto into = targets(out);
+        transfer_->interpolate(into);
         for (auto& vector : out) {
             space.hanging_nodes.distribute(vector);
             vector.update_ghost_values();
@@ -39,7 +40,8 @@ class MeshTransfer {
     /// When the mesh is loaded and the space distributed on it.
     static std::vector<Vector> loaded(const Space& space, std::size_t count) {
         std::vector<Vector> out(count, space.vector());
-        Transfer(space.dofs).deserialize(targets(out));
+        auto into = targets(out);
+        Transfer(space.dofs).deserialize(into);
         for (const auto& vector : out) vector.update_ghost_values();
         return out;
     }
