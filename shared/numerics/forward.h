@@ -10,11 +10,48 @@
 
 namespace endoflow {
 
+/// N numbers that are calculated with together, four at a time: compilers vectorise loops this short so badly that a
+/// product of jets took ten times as long.
+template <std::size_t N>
+class Row {
+  public:
+    [[nodiscard]] double& operator[](std::size_t i) { return numbers_[i]; }
+    [[nodiscard]] double operator[](std::size_t i) const { return numbers_[i]; }
+
+    /// Sets this to a x + b y.
+    void combine(double a, const Row& x, double b, const Row& y) {
+        for (std::size_t k = 0; k < size; k += width) put(k, a * Chunk(x, k).numbers + b * Chunk(y, k).numbers);
+    }
+    void multiply(double a) {
+        for (std::size_t k = 0; k < size; k += width) put(k, a * Chunk(*this, k).numbers);
+    }
+    /// Adds a x.
+    void add(double a, const Row& x) { combine(1, *this, a, x); }
+    /// Adds a x + b y.
+    void add(double a, const Row& x, double b, const Row& y) {
+        for (std::size_t k = 0; k < size; k += width)
+            put(k, Chunk(*this, k).numbers + a * Chunk(x, k).numbers + b * Chunk(y, k).numbers);
+    }
+
+  private:
+    static constexpr std::size_t width = N > 4 ? 4 : 1, size = (N + width - 1) / width * width;
+    struct Chunk {  // a class, for functions that return vectors differ from one instruction set to the next
+        [[gnu::vector_size(width * sizeof(double))]] double numbers;
+        Chunk(const Row& row, std::size_t k) { std::memcpy(&numbers, &row.numbers_[k], sizeof numbers); }
+    };
+    template <class Numbers>
+    void put(std::size_t k, const Numbers& numbers) {
+        std::memcpy(&numbers_[k], &numbers, sizeof numbers);
+    }
+
+    std::array<double, size> numbers_{};
+};
+
 /// A value with its N partial derivatives.
 template <std::size_t N>
 struct Dual {
     double value = 0;
-    std::array<double, N> partial{};
+    Row<N> partial;
 
     Dual() = default;
     Dual(double constant) : value(constant) {}  // NOLINT(google-explicit-constructor): constants mix with duals
@@ -28,34 +65,30 @@ struct Dual {
 
     Dual& operator+=(const Dual& b) {
         value += b.value;
-        for (std::size_t i = 0; i < N; ++i) partial[i] += b.partial[i];
+        partial.add(1, b.partial);
         return *this;
     }
     friend Dual operator+(Dual a, const Dual& b) { return a += b; }
     friend Dual operator-(Dual a, const Dual& b) {
         a.value -= b.value;
-        for (std::size_t i = 0; i < N; ++i) a.partial[i] -= b.partial[i];
+        a.partial.add(-1, b.partial);
         return a;
     }
-    friend Dual operator-(Dual a) {
-        a.value = -a.value;
-        for (double& p : a.partial) p = -p;
-        return a;
-    }
+    friend Dual operator-(const Dual& a) { return -1.0 * a; }
     friend Dual operator*(const Dual& a, const Dual& b) {
         Dual result(a.value * b.value);
-        for (std::size_t i = 0; i < N; ++i) result.partial[i] = a.partial[i] * b.value + a.value * b.partial[i];
+        result.partial.combine(b.value, a.partial, a.value, b.partial);
         return result;
     }
     friend Dual operator/(const Dual& a, const Dual& b) {
         const double inverse = 1 / b.value;
         Dual result(a.value * inverse);
-        for (std::size_t i = 0; i < N; ++i) result.partial[i] = (a.partial[i] - result.value * b.partial[i]) * inverse;
+        result.partial.combine(inverse, a.partial, -result.value * inverse, b.partial);
         return result;
     }
     friend Dual operator*(double a, Dual b) {
         b.value *= a;
-        for (double& p : b.partial) p *= a;
+        b.partial.multiply(a);
         return b;
     }
     friend Dual operator*(Dual a, double b) { return b * a; }
@@ -67,40 +100,6 @@ struct Dual {
     friend Dual operator+(double a, Dual b) { return b + a; }
     friend Dual operator-(Dual a, double b) { return a + (-b); }
     friend Dual operator-(double a, Dual b) { return (-b) + a; }
-};
-
-/// N numbers that are calculated with together, four at a time: compilers vectorise loops this short so badly that a
-/// product of jets took ten times as long.
-template <std::size_t N>
-class Row {
-  public:
-    [[nodiscard]] double& operator[](std::size_t i) { return numbers_[i]; }
-    [[nodiscard]] double operator[](std::size_t i) const { return numbers_[i]; }
-
-    /// Sets this to a x + b y.
-    void combine(double a, const Row& x, double b, const Row& y) {
-        for (std::size_t k = 0; k < size; k += width) put(k, a * Chunk(x, k).numbers + b * Chunk(y, k).numbers);
-    }
-    /// Adds a x.
-    void add(double a, const Row& x) { combine(1, *this, a, x); }
-    /// Adds a x + b y.
-    void add(double a, const Row& x, double b, const Row& y) {
-        for (std::size_t k = 0; k < size; k += width)
-            put(k, Chunk(*this, k).numbers + a * Chunk(x, k).numbers + b * Chunk(y, k).numbers);
-    }
-
-  private:
-    static constexpr std::size_t width = N > 2 ? 4 : 1, size = (N + width - 1) / width * width;
-    struct Chunk {  // a class, for functions that return vectors differ from one instruction set to the next
-        [[gnu::vector_size(width * sizeof(double))]] double numbers;
-        Chunk(const Row& row, std::size_t k) { std::memcpy(&numbers, &row.numbers_[k], sizeof numbers); }
-    };
-    template <class Numbers>
-    void put(std::size_t k, const Numbers& numbers) {
-        std::memcpy(&numbers_[k], &numbers, sizeof numbers);
-    }
-
-    std::array<double, size> numbers_{};
 };
 
 /// A value with its N partial derivatives and the N × N second ones.
@@ -185,7 +184,7 @@ template <std::size_t N>
 template <std::size_t N>
 [[nodiscard]] Dual<N> chain(Dual<N> x, double f, double first, double /*second*/ = 0) {
     x.value = f;
-    for (double& p : x.partial) p *= first;
+    x.partial.multiply(first);
     return x;
 }
 template <std::size_t N>
@@ -211,8 +210,7 @@ template <std::size_t M>
 template <std::size_t M, std::size_t N>
 [[nodiscard]] Dual<N> compose(const Jet<M>& f, const std::array<Dual<N>, M>& x) {
     Dual<N> y(f.value);
-    for (std::size_t a = 0; a < M; ++a)
-        for (std::size_t i = 0; i < N; ++i) y.partial[i] += f.partial[a] * x[a].partial[i];
+    for (std::size_t a = 0; a < M; ++a) y.partial.add(f.partial[a], x[a].partial);
     return y;
 }
 template <std::size_t M, std::size_t N>
@@ -241,8 +239,7 @@ template <std::size_t M>
 template <std::size_t M, std::size_t N>
 [[nodiscard]] Dual<N> compose_partial(const Jet<M>& f, std::size_t a, const std::array<Dual<N>, M>& x) {
     Dual<N> y(f.partial[a]);
-    for (std::size_t b = 0; b < M; ++b)
-        for (std::size_t i = 0; i < N; ++i) y.partial[i] += f.second[a][b] * x[b].partial[i];
+    for (std::size_t b = 0; b < M; ++b) y.partial.add(f.second[a][b], x[b].partial);
     return y;
 }
 

@@ -325,7 +325,7 @@ TEST_CASE("a membrane that a term makes stiffer is a stiffer membrane", "[produc
     soft.membrane.bending_stiffness_coated = soft.membrane.bending_stiffness;
     stiff.membrane.bending_stiffness = stiff.membrane.bending_stiffness_coated = 3 * soft.membrane.bending_stiffness;
     const double beta = BendingModel(soft.membrane).stiffness(0).value;
-    const LayerEnergy added(membrane_energy(soft).add(AddedStiffness{2 * beta})), stiffer(stiff);
+    const LayerEnergy added(membrane_energy(soft).add(AddedStiffness{2 * beta}), false), stiffer(stiff);
     auto one = point_equations(some_point(), point_radius, some_past(soft), {}, numbers(soft), added),
          other = point_equations(some_point(), point_radius, some_past(soft), {}, numbers(soft), stiffer);
     for (std::size_t i = 0; i < n_features; ++i)

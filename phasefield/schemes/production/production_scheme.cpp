@@ -21,7 +21,6 @@ namespace {
 constexpr std::size_t line_points = 2;
 constexpr unsigned int first_steps = highest_order + 1;  // before the error can be estimated well
 constexpr double almost_all = constant("almost_all");
-constexpr double largest_motion = constant("largest_motion");
 constexpr double newton_part = constant("newton_part");
 
 /// A copy with ghost values: assignment alone could keep the ghosts of an earlier mesh.

@@ -19,7 +19,6 @@ constexpr double largest_growth = constant("largest_growth");
 constexpr double after_hard_step = constant("after_hard_step");
 constexpr double tolerated_excess = constant("tolerated_excess");
 constexpr double smallest_step = constant("smallest_step");
-constexpr double largest_motion = constant("largest_motion");
 constexpr double longer_steps = constant("longer_steps");
 constexpr double retry = constant("retry");
 

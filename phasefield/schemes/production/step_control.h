@@ -3,12 +3,14 @@
 #include <cstddef>
 #include <string>
 
+#include "phasefield/schemes/production/constants.h"
 #include "shared/parameters/parameters.h"
 
 namespace endoflow::phasefield::production {
 
 /// Orders of BDF.
 inline constexpr std::size_t highest_order = 3;
+inline constexpr double largest_motion = constant("largest_motion");
 
 /// Largest relative error of a step.
 [[nodiscard]] double step_tolerance(const Parameters& parameters);
