@@ -53,7 +53,8 @@ struct LocalSlots {
     return slots;
 }
 
-[[nodiscard]] inline double dot(const Direction& a, const Slot& slot) {
+template <class Derivatives>
+[[nodiscard]] double dot(const Derivatives& a, const Slot& slot) {
     return a[slot.first] * slot.partial[0] + a[slot.first + 1] * slot.partial[1] + a[slot.first + 2] * slot.partial[2];
 }
 

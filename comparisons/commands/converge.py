@@ -20,6 +20,11 @@ from comparisons.studies.ranges import positive_numbers
 from comparisons.studies.study import Study
 
 
+#: Of the scheme `production`, whose defaults are not those of a study of ε: cells of one ε, and time.tolerance at the
+#: largest ε, from where it falls with ε².
+CELLS_PER_EPSILON, TOLERANCE = 1.0, 2e-5
+
+
 class Convergence(Study):
     """A sharp run and phase-field runs with decreasing ε."""
 
@@ -33,14 +38,24 @@ class Convergence(Study):
     def members(self):
         """The sharp run, then the phase field's in order of decreasing ε."""
         options, base = self.options, common_settings(self.options)
-        own = resolved_parameters(options.case, base)["phase_field"]
-        ratio = own["cell_size"] / own["epsilon"]
+        own = resolved_parameters(options.case, base)
+        given = [setting.partition("=")[0] for setting in base]
+        production = own["phase_field"]["scheme"] == "production"
+        ratio = own["phase_field"]["cell_size"] / own["phase_field"]["epsilon"]
         if options.cells_per_epsilon is not None:
             ratio = 1 / positive_numbers(options.cells_per_epsilon, "--cells-per-epsilon")[0]
+        elif production and ratio == 0:
+            ratio = 1 / CELLS_PER_EPSILON
         name = "boundary-integral"
         self.sharp = checked_member(name, options.case, self.output / name, name, base)
-        for epsilon in sorted(positive_numbers(options.epsilon, "--epsilon"), reverse=True):
+        layers = sorted(positive_numbers(options.epsilon, "--epsilon"), reverse=True)
+        for epsilon in layers:
             values = {"phase_field.epsilon": f"{epsilon:.12g}", "phase_field.cell_size": f"{ratio * epsilon:.12g}"}
+            if production:
+                tolerance = (own["time"]["tolerance"] or TOLERANCE) * (epsilon / layers[0]) ** 2
+                values["time.tolerance"] = f"{tolerance:.6g}"
+                if "phase_field.production.thinning" not in given:
+                    values["phase_field.production.thinning"] = "0"
             name, settings = f"epsilon={epsilon:.12g}", (*base, *settings_of(values))
             self.diffuse.append(checked_member(name, options.case, self.output / name, "phase-field", settings, values))
         return [self.sharp, *self.diffuse]

@@ -122,7 +122,7 @@ def compare(parser):
 def converge(parser):
     runs_of_a_case(parser, "converge")
     parser.add_argument("--epsilon", metavar="E1,E2,...", required=True, help="values of phase_field.epsilon in nm")
-    what = "phase_field.cell_size = ε/X (default: the case's ratio, or the scheme's)"
+    what = "phase_field.cell_size = ε/X (default: the case's ratio; where it has none 1, of the scheme paper its own)"
     parser.add_argument("--cells-per-epsilon", metavar="X", help=what)
     what = "times of the comparison in µs (default: four, evenly chosen)"
     parser.add_argument("--times", metavar="T1,T2,...", help=what)

@@ -285,13 +285,17 @@ def _limit(quantity, time, epsilon, values, sharp):
     return {**where, **numbers, "sharp": sharp, "difference": difference, "reason": reason}
 
 
+#: The alarm of a thick layer, whose error is what the study measures.
+MEASURED = "layer-at-neck"
+
+
 def warnings(sharp, diffuse, records, times):
     """Sentences a reader should see first."""
     found = []
     for name, run in [("the sharp run", sharp), *((f"ε = {one.epsilon:g} nm", one.run) for one in diffuse)]:
         if left := unfinished(run.directory, run.record):
             found.append(f"{name} is {left}")
-        found += [f"{name}: {alarm}" for alarm in run.alarms]
+        found += [f"{name}: {alarm}" for alarm in run.alarms if alarm.name != MEASURED]
     for time in times:
         covered = len(at_time(records, time))
         if covered < len(diffuse):

@@ -46,18 +46,4 @@ double MoleculeBalance::residual(double mass) const {
     return std::abs(mass - first_mass_ - exchanged_) / first_mass_;
 }
 
-void MoleculeBalance::save(Checkpoint& checkpoint) const {
-    checkpoint.scalars["first_molecule_mass"] = first_mass_;
-    checkpoint.scalars["molecules_exchanged"] = exchanged_;
-    checkpoint.arrays["exchange_times"] = times_;
-    checkpoint.arrays["exchange_rates"] = rates_;
-}
-
-void MoleculeBalance::load(const Checkpoint& checkpoint) {
-    first_mass_ = checkpoint.scalar("first_molecule_mass");
-    exchanged_ = checkpoint.scalar("molecules_exchanged");
-    times_ = checkpoint.array("exchange_times");
-    rates_ = checkpoint.array("exchange_rates");
-}
-
 }  // namespace endoflow::phasefield

@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include "shared/output/checkpoint.h"
-
 namespace endoflow::phasefield {
 
 /// Whether the membrane's molecules are those that it had and those that have come since. What has come is the integral
@@ -19,8 +17,13 @@ class MoleculeBalance {
     /// |mass − first mass − what has come| over the first mass.
     [[nodiscard]] double residual(double mass) const;
 
-    void save(Checkpoint& checkpoint) const;
-    void load(const Checkpoint& checkpoint);
+    template <class Archive>
+    void serialize(Archive&& archive) {
+        archive("first_molecule_mass", first_mass_);
+        archive("molecules_exchanged", exchanged_);
+        archive("exchange_times", times_);
+        archive("exchange_rates", rates_);
+    }
 
   private:
     double first_mass_ = 0, exchanged_ = 0;

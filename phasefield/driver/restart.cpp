@@ -4,6 +4,7 @@
 
 #include "phasefield/checkpoint/mesh_checkpoint.h"
 #include "phasefield/driver/time_loop.h"
+#include "shared/output/checkpoint_archive.h"
 #include "shared/output/phase_timer.h"
 #include "shared/support/error.h"
 
@@ -33,7 +34,7 @@ void TimeLoop::checkpoint() {
                           {"neck_radius", neck_radius_},
                           {"budded", events_.budded() ? 1 : 0}};
     checkpoint.arrays["field_times"] = field_times_;
-    molecules_.save(checkpoint);
+    molecules_.serialize(CheckpointWriter(checkpoint));
     const auto directory = output_.directory() / "checkpoint" / slot;
     try {
         scheme_->save(directory, checkpoint);
@@ -53,7 +54,7 @@ void TimeLoop::restart(const Checkpoint& checkpoint) {
     neck_radius_ = checkpoint.scalar("neck_radius");
     events_.restore(checkpoint.scalar("budded") != 0);
     field_times_ = checkpoint.array("field_times");
-    molecules_.load(checkpoint);
+    molecules_.serialize(CheckpointReader(checkpoint));
     const auto directory = output_.directory() / "checkpoint" / checkpoint.text("mesh");
     require_files(directory, checkpoint.text("mesh_files"));
     contour_ = scheme_->load(directory, checkpoint).contour;

@@ -77,6 +77,13 @@ void scale_component(const Space& space, unsigned int component, double factor, 
     vector.update_ghost_values();
 }
 
+Vector combination(const Space& space, const std::vector<double>& weights, const std::vector<Vector>& vectors) {
+    Vector out = space.vector();
+    for (std::size_t j = 0; j < weights.size(); ++j) out.add(weights[j], vectors[j]);
+    out.update_ghost_values();
+    return out;
+}
+
 void component_values(const Space& space, unsigned int component, const dealii::Vector<double>& cell_values,
                       std::vector<double>& out) {
     const auto& indices = space.local[component];

@@ -82,6 +82,10 @@ void finish_interpolation(const Space& space, Vector& vector);
 /// Multiplies the owned unknowns of one component; updates the ghost values.
 void scale_component(const Space& space, unsigned int component, double factor, Vector& vector);
 
+/// Σ_j weights[j] vectors[j], with ghost values; of the first vectors where there are more than weights.
+[[nodiscard]] Vector combination(const Space& space, const std::vector<double>& weights,
+                                 const std::vector<Vector>& vectors);
+
 /// Coefficients of one component on one cell, from a ghosted vector's values on that cell.
 void component_values(const Space& space, unsigned int component, const dealii::Vector<double>& cell_values,
                       std::vector<double>& out);

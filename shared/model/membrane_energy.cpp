@@ -38,17 +38,17 @@ LocalJet MembraneEnergy::density(double curvature, double concentration, double 
     return sum;
 }
 
-LocalJet MembraneEnergy::conjugate(double moment, double concentration, double squared_gradient) const {
+LocalJet MembraneEnergy::conjugate(double moment, double concentration, double squared_gradient, double near) const {
     constexpr int most_iterations = 50;
     constexpr double round_off = 1e-13;
     if (!std::isfinite(moment + concentration + squared_gradient)) return std::numeric_limits<double>::quiet_NaN();
-    double curvature = 0;
+    double curvature = near;
     for (int i = 0; i < most_iterations; ++i) {
         const LocalJet e = density(curvature, concentration, squared_gradient);
         const double stiffness = e.second[local::curvature][local::curvature];
         const double change = (moment - e.partial[local::curvature]) / stiffness;
         if (!std::isfinite(change)) break;
-        if (i == 0 || std::abs(change) > round_off * (std::abs(curvature) + std::abs(moment / stiffness))) {
+        if (std::abs(change) > round_off * (std::abs(curvature) + std::abs(moment / stiffness))) {
             curvature += change;
             continue;
         }

@@ -49,7 +49,9 @@ class MembraneEnergy {
     /// The Legendre transform e*(m, c, |∇_Γ c|²) = m κ − e with κ from ∂e/∂κ = m, found by Newton's method, exact after
     /// one step where e is quadratic in κ. With its derivatives: ∂e*/∂m = κ, ∂e*/∂c = −∂e/∂c, ∂e*/∂|∇c|² = −∂e/∂|∇c|².
     /// NaN where an argument is none of the numbers; throws SolverError "no-curvature" when no κ has this moment.
-    [[nodiscard]] LocalJet conjugate(double moment, double concentration, double squared_gradient) const;
+    /// `near`: where the search for κ starts [1/nm].
+    [[nodiscard]] LocalJet conjugate(double moment, double concentration, double squared_gradient,
+                                     double near = 0) const;
 
   private:
     std::vector<std::function<LocalJet(const LocalShape<LocalJet>&)>> terms_;

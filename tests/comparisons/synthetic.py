@@ -152,7 +152,7 @@ def parameters(**changes):
             "curvature_convention": "as-printed",
         },
         "molecules": {"patch_radius": PATCH_RADIUS, "transport": "cahn-hilliard", "interface_width": INTERFACE_WIDTH},
-        "phase_field": {"scheme": "production", "epsilon": 1.2},
+        "phase_field": {"scheme": "production", "epsilon": 1.2, "production": {"thinning": 1.0}},
         "boundary_integral": {"elements": 32},
         "time": {"end": 1.0, "tolerance": 1e-4},
         "output": {"shape_interval": 0.25, "field_interval": 0.0},

@@ -43,10 +43,14 @@ class Converge(StudyTest):
         self.assertEqual(self.metrics()["times_us"], [0.4])
 
     def check_members(self):
-        """cell_size/ε is the case's in every run."""
+        """cell_size/ε is the case's in every run; layers are uniform, tolerances fall with ε²."""
         self.assertEqual(len(self.runs()), 5)
-        record = json.loads((self.scratch / "out/epsilon=0.85/run.json").read_text())["parameters"]["phase_field"]
-        self.assertAlmostEqual(record["cell_size"] / record["epsilon"], 0.6 / 1.2)
+        for epsilon in (2.4, 0.85):
+            record = json.loads((self.scratch / f"out/epsilon={epsilon}/run.json").read_text())["parameters"]
+            layer = record["phase_field"]
+            self.assertAlmostEqual(layer["cell_size"] / layer["epsilon"], 0.6 / 1.2)
+            self.assertEqual(layer["production"]["thinning"], 0)
+            self.assertAlmostEqual(record["time"]["tolerance"] / 1e-4, (epsilon / 2.4) ** 2, places=5)
 
     def check_orders(self, metrics):
         last = metrics["times_us"][-1]

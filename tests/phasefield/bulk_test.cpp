@@ -54,7 +54,7 @@ class RestingMembrane {
           mesh_(coarse_mesh(parameters_, MPI_COMM_SELF)),
           space_(*mesh_, field_degrees(parameters_.phase_field)),
           energy_(parameters_),
-          numbers_(parameters_, membrane_weight(parameters_.fluid, parameters_.phase_field.viscosity_mean)),
+          numbers_(CaseNumbers(parameters_), 0),
           bulk_(parameters_, *mesh_, MPI_COMM_SELF) {
         mesh_->refine_global(static_cast<unsigned int>(parameters_.phase_field.far_refinements));
         space_.distribute();

@@ -95,7 +95,7 @@ TEST_CASE("a pit in the distance outside of the layer fills up", "[distance]") {
     for (int step = 0; step < 6; ++step) {
         const StepPast history(space, numbers, past, {-numbers.rate}, {1}, past[0]);
         Vector x = past[0];
-        one.solver.solve(space, numbers, history, x);
+        one.solver.solve({space, one.energy, numbers, history}, x);
         past[0] = x;
     }
     // What keeps ∂ψ/∂n from step to step lets a fifth of the pit stay in each; measured 1.3e-4 nm after six, 3e-6 nm in

@@ -3,8 +3,11 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "one_step.h"
+#include "phasefield/schemes/production/equation_pattern.h"
 #include "phasefield/schemes/production/point_equations.h"
 #include "some_point.h"
 
@@ -107,7 +110,6 @@ PointPast some_past(const Parameters& p) {
 void check_jacobian(const Parameters& p, const LayerEnergy& energy, const StepNumbers& step) {
     const PointPast past = some_past(p);
     // The change of ψ's gradient follows the fields.
-    constexpr std::size_t n_variables = n_features + 3;
     using Variables = Dual<n_variables>;
     const auto rows_at = [&](const auto& x, const auto& change) {
         return point_equations(x, point_radius, past, change, step, energy);
@@ -139,109 +141,69 @@ void check_jacobian(const Parameters& p, const LayerEnergy& energy, const StepNu
     }
 }
 
-/// M₂ k
-double shift(const Fields<double>& x, double epsilon) {
-    return energy_second_moment * epsilon * sheet_curvature(x[distance].r, point_radius, epsilon).scaled;
+/// The membrane's elastic state at a point.
+SheetState sheet_at(const LayerEnergy& energy, const Fields<double>& x, const PointPast& past, double epsilon) {
+    const double along = along_sheet(x[molecule_density], sheet_normal(x[distance], past.thickness).N_epsilon);
+    return sheet_state(energy,
+                       sheet_point(energy, x[Field::moment].value, x[molecule_density].value, along, x[distance].r,
+                                   point_radius, epsilon),
+                       epsilon);
 }
 
-/// q = p − M₂ k e*(p)
-double membrane_moment(const LayerEnergy& energy, const Fields<double>& x, double slope, double epsilon) {
-    const double p = -x[Field::moment].value;
-    return p - shift(x, epsilon) * energy.density.conjugate(p, x[molecule_density].value, slope * slope).value;
+/// W and its parts with this thickness at the place of the argument.
+EnergyDensity<double> density_at(const LayerEnergy& energy, const Fields<double>& x, const PointPast& past,
+                                 double epsilon) {
+    const auto &psi = x[distance], &m = x[Field::moment], &c = x[molecule_density];
+    const double along = along_sheet(c, sheet_normal(psi, past.thickness).N_epsilon);
+    const auto at = sheet_point(energy, m.value, c.value, along, psi.r, point_radius, epsilon);
+    return energy_density(EnergyArguments<double>{psi, m, c, epsilon}, point_radius, past.thickness, energy,
+                          SheetEnergy(energy, at, epsilon), ScaledEnergyWeight(layer_profile(psi.value, epsilon).phi));
 }
 
-/// e*(q) + M₂ k² e*(p): what the layer has in place of e*.
-double layer_conjugate(const LayerEnergy& energy, const Fields<double>& x, double slope, double epsilon) {
-    const double c = x[molecule_density].value, part = shift(x, epsilon);
-    const double plain = energy.density.conjugate(-x[Field::moment].value, c, slope * slope).value;
-    return energy.density.conjugate(membrane_moment(energy, x, slope, epsilon), c, slope * slope).value +
-           part * part / (energy_second_moment * epsilon * epsilon) * plain;
-}
-
-/// M₂ κ₂ (∂e/∂c) t·∇c t·∇χ, by which the row of G differs from the variation.
-void take_off_turning(const LayerEnergy& energy, const Fields<double>& x, const PointPast& past, double epsilon,
-                      AtPoint<double>& row) {
-    const auto& c = x[molecule_density];
-    const auto sheet = sheet_gradient(x[distance], past.thickness);
-    const double length = std::hypot(sheet.r, sheet.z, gradient_floor), t_r = -sheet.z / length, t_z = sheet.r / length;
-    const double moment = membrane_moment(energy, x, 0, epsilon);
-    const double by_c = -energy.density.conjugate(moment, c.value, 0).partial[local::concentration];
-    const double weight = energy_weight(layer_profile(x[distance].value, epsilon), x[distance].value, epsilon).value;
-    const double turning = -shift(x, epsilon) * weight * by_c * (c.r * t_r + c.z * t_z);  // shift is −M₂ κ₂
-    row.r -= turning * t_r;
-    row.z -= turning * t_z;
-}
-
-/// E_ε by differences of the integrand whose Laplacian of ψ is not integrated by parts.
-double energy_by_thickness(const LayerEnergy& energy, const Fields<double>& x, double epsilon, double along,
+/// E_ε by differences of the integrand of (D), whose Laplacian of ψ is not integrated by parts.
+double energy_by_thickness(const LayerEnergy& energy, const Fields<double>& x, const PointPast& past,
                            double laplacian) {
-    const auto &psi = x[distance], &b = x[Field::moment];
-    const double defect = 1 - psi.r * psi.r - psi.z * psi.z, slope = psi.r * b.r + psi.z * b.z;
-    const auto per_volume = [&](double at) {
-        const auto weight = energy_weight(layer_profile(psi.value, at), psi.value, at);
-        return weight.value * (b.value * laplacian - layer_conjugate(energy, x, along, at)) -
-               0.5 * weight.first * b.value * defect - 0.5 * energy.compliance(at) * weight.value * slope * slope;
+    const auto per_volume = [&](double epsilon) {
+        const auto density = density_at(energy, x, past, epsilon);
+        return density.at_given_bend + density.delta_E * x[Field::moment].value * laplacian;
     };
     constexpr double h = 1e-5;
+    const double epsilon = past.thickness.value;
     return (per_volume(epsilon + h) - per_volume(epsilon - h)) / (2 * h);
 }
 
-/// ∂ε/∂ψ along ∇ψ.
-double thickness_across(const Fields<double>& x, const PointThickness& thickness) {
-    const auto& psi = x[distance];
-    return (thickness.r * psi.r + thickness.z * psi.z) /
-           (psi.r * psi.r + psi.z * psi.z + gradient_floor * gradient_floor);
-}
-
-/// ψ E_ε ∇ₜε of arcs measured on the membrane, by which the row of G differs, too.
-void take_off_lag_of_thickness(const LayerEnergy& energy, const Fields<double>& x, const PointPast& past, double along,
-                               AtPoint<double>& row) {
-    const auto& psi = x[distance];
-    const auto& thickness = past.thickness;
-    const double part = past.arc * psi.value * energy_by_thickness(energy, x, thickness.value, along, 0);
-    const double across = thickness_across(x, thickness);
-    row.r -= part * (thickness.r - across * psi.r);
-    row.z -= part * (thickness.z - across * psi.z);
-}
-
-/// Rows of b, G and of a coupled μ against differences of the two-field energy that add_bending() documents.
+/// Rows of m, G and of a coupled μ against differences of W; what is taken off the row of G is put back.
 void check_variation(const LayerEnergy& energy) {
     const Parameters p;
-    const double epsilon = p.phase_field.epsilon;
-    PointPast past = some_past(p);
-    const PointThickness thickness = past.thickness;
-    const auto integrand = [&](const Fields<double>& x) {
-        const auto &psi = x[distance], &b = x[Field::moment], &c = x[molecule_density];
-        const auto layer = layer_profile(psi.value, epsilon);
-        const auto weight = energy_weight(layer, psi.value, epsilon);
-        const auto sheet = sheet_gradient(psi, thickness);
-        const double along = (c.z * sheet.r - c.r * sheet.z) / std::hypot(sheet.r, sheet.z, gradient_floor);
-        const double conjugate = layer_conjugate(energy, x, along, epsilon);
-        const double squared = psi.r * psi.r + psi.z * psi.z;
-        return weight.value * (-conjugate - psi.r * b.r - psi.z * b.z) - 0.5 * weight.first * (1 + squared) * b.value -
-               weight.thickness * b.value * (thickness.r * psi.r + thickness.z * psi.z) -
-               0.5 * energy.compliance(epsilon) * weight.value * std::pow(psi.r * b.r + psi.z * b.z, 2) -
-               0.5 * energy.smoothing(epsilon) * (b.r * b.r + b.z * b.z);
-    };
+    const PointPast past = some_past(p);
+    const double epsilon = past.thickness.value;
     auto x = some_point();
     x[normal_force] = x[molecule_potential] = {};  // their own terms are not the energy's
-    auto rows = point_equations(x, point_radius, past, {}, numbers(p), energy);
-    if (!energy.coupled) take_off_turning(energy, x, past, epsilon, rows[normal_force]);
-    const auto sheet = sheet_gradient(x[distance], thickness);
-    const double along = (x[molecule_density].z * sheet.r - x[molecule_density].r * sheet.z) /
-                         std::hypot(sheet.r, sheet.z, gradient_floor);
-    take_off_lag_of_thickness(energy, x, past, energy.coupled ? along : 0, rows[normal_force]);
+    const StepNumbers step = numbers(p);
+    auto rows = point_equations(x, point_radius, past, {}, step, energy);
+    const auto take_back = [&rows](const PlaneVector<double>& flux) {
+        rows[normal_force].r -= flux.r;
+        rows[normal_force].z -= flux.z;
+    };
+    take_back(turning_thickness(energy_by_thickness(energy, x, past, 0), x[distance], past));
+    const auto geometry = point_geometry(x[distance], past, step.weight);
+    const double along = along_sheet(x[molecule_density], geometry.N_epsilon);
+    const double k = sheet_point(energy, 0.0, 0.0, 0.0, x[distance].r, point_radius, epsilon).k;
+    if (!energy.coupled)
+        take_back(turning_molecules(density_at(energy, x, past, epsilon).delta_E, k,
+                                    sheet_at(energy, x, past, epsilon).by_concentration, along, geometry));
     const auto check = [&](Field field, Field row_of) {
-        for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t i = 0; i < 3; ++i) {
             constexpr double h = 1e-5;
             auto up = x, down = x;
-            part(up[field], k) += h;
-            part(down[field], k) -= h;
-            const double derivative = (integrand(up) - integrand(down)) / (2 * h);
-            CAPTURE(field, k);
+            part(up[field], i) += h;
+            part(down[field], i) -= h;
+            const double derivative =
+                (density_at(energy, up, past, epsilon).W - density_at(energy, down, past, epsilon).W) / (2 * h);
+            CAPTURE(field, i);
             // Rows are written with the sign of the other side. h² times third derivatives of order 10, and round-off
             // over h.
-            CHECK(-part(rows[row_of], k) == Approx(derivative).epsilon(1e-7).margin(1e-7));
+            CHECK(-part(rows[row_of], i) == Approx(derivative).epsilon(1e-7).margin(1e-7));
         }
     };
     check(distance, normal_force);
@@ -256,7 +218,45 @@ TEST_CASE("the Jacobian is the derivative of the residual", "[production]") {
                                 loaded(), coupled(), growing(Exchange::reservoir), growing(Exchange::edge)})
         check_jacobian(p, LayerEnergy(p), numbers(p));
     const Parameters p;
-    check_jacobian(p, LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 3})), numbers(p));
+    check_jacobian(p, LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 3}), true), numbers(p));
+}
+
+TEST_CASE("the pattern of the Jacobian holds what the equations contain, and nothing else", "[production]") {
+    // In one case or another, at points without special meaning.
+    Parameters without_flow;
+    without_flow.fluid.dynamics = Dynamics::geometric;
+    Parameters sensing = coupled();
+    const Parameters exchanging = growing(Exchange::reservoir);
+    sensing.molecules.exchange = exchanging.molecules.exchange;
+    sensing.molecules.curvature_sensing = exchanging.molecules.curvature_sensing;
+    sensing.molecules.molecule_area = exchanging.molecules.molecule_area;
+    sensing.molecules.off_rate = exchanging.molecules.off_rate;
+    std::set<std::pair<unsigned int, unsigned int>> found, said;
+    for (const Parameters& p : {of(Transport::cahn_hilliard), of(Transport::fickian), loaded(), coupled(), exchanging,
+                                sensing, without_flow}) {
+        using Variables = Dual<n_variables>;
+        PointPast past = some_past(p);
+        Fields<Variables> x;
+        auto values = some_point();
+        for (unsigned int k = 0; k < n_features; ++k)
+            part(x[k / 3], k % 3) = Variables::variable(part(values[k / 3], k % 3), k);
+        const auto second = [](double value, unsigned int k) { return Variables::variable(value, n_features + k); };
+        const auto change = gradient_change(own_normal(x[distance], past), second(0.3, 0), second(-0.2, 1),
+                                            second(0.07, 2), (1 / point_radius) * x[distance].r);
+        auto rows = point_equations(x, point_radius, past, change, numbers(p), LayerEnergy(p));
+        for (unsigned int row = 0; row < n_features; ++row)
+            for (unsigned int column = 0; column < n_variables; ++column)
+                if (part(rows[row / 3], row % 3).partial[column] != 0) found.emplace(row, column);
+    }
+    for (const auto& [row, column] : equation_pattern()) said.emplace(row, column);
+    for (const auto& [row, column] : found) {
+        CAPTURE(row, column);
+        CHECK(said.contains({row, column}));
+    }
+    for (const auto& [row, column] : said) {
+        CAPTURE(row, column);
+        CHECK(found.contains({row, column}));
+    }
 }
 
 TEST_CASE("any exchange law brings its molecules, and the Jacobian knows it", "[production]") {
@@ -269,21 +269,20 @@ TEST_CASE("any exchange law brings its molecules, and the Jacobian knows it", "[
     const auto x = some_point();
     const auto there = point_equations(x, point_radius, past, {}, with, energy),
                without = point_equations(x, point_radius, past, {}, numbers(p), energy);
-    const auto point = point_geometry(x[distance], past.thickness, with.weight);
+    const auto point = point_geometry(x[distance], past, with.weight);
     const double c = x[molecule_density].value,
-                 by_c = -energy.density.conjugate(membrane_moment(energy, x, 0, p.phase_field.epsilon), c, 0)
-                             .partial[local::concentration],
+                 by_c = sheet_at(energy, x, past, p.phase_field.epsilon).by_concentration,
                  rate = 30 * c * c * (1 - 1e-4 * with.molecules) - 0.7 * by_c * c;
     CHECK(without[molecule_density].value - there[molecule_density].value ==
-          Approx(point.density * rate).epsilon(1e-12));
+          Approx(point.delta_Gamma * rate).epsilon(1e-12));
 }
 
 TEST_CASE("forces are the variation of the energy, whatever its terms", "[production]") {
     const Parameters p;
     check_variation(LayerEnergy(p));
     check_variation(LayerEnergy(coupled()));
-    check_variation(LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 0})));
-    check_variation(LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 3})));
+    check_variation(LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 0}), false));
+    check_variation(LayerEnergy(membrane_energy(p).add(StiffeningTerm{40, 3}), true));
 }
 
 TEST_CASE("a sheet's curvatures tell how much longer it is than the membrane", "[production]") {
@@ -303,12 +302,12 @@ TEST_CASE("a thickness that is not constant along the normal acts across the mem
     const auto x = some_point();
     const GradientChange<double> change{0, 0, 0.07};
     Fields<double> rows;
-    const auto geometry = point_geometry(x[distance], past.thickness, step.weight);
-    const double force = add_bending(x, geometry, energy, point_radius, past, change, rows).of_thickness;
-    const double by_thickness = energy_by_thickness(energy, x, past.thickness.value, 0, change.laplacian);
+    const auto geometry = point_geometry(x[distance], past, step.weight);
+    const double force = add_bending(x, geometry, energy, point_radius, past, change, rows).thickness;
+    const double by_thickness = energy_by_thickness(energy, x, past, change.laplacian);
     CHECK(std::abs(by_thickness) > 0.01);
     // h² times third derivatives, some 10 times as large
-    CHECK(force == Approx(by_thickness * thickness_across(x, past.thickness)).epsilon(1e-6));
+    CHECK(force == Approx(by_thickness * thickness_across(x[distance], past.thickness)).epsilon(1e-6));
 
     // With E_ε nothing else that the fluid feels depends on Δψ.
     const auto with = point_equations(x, point_radius, past, change, step, energy),
@@ -326,7 +325,7 @@ TEST_CASE("a membrane that a term makes stiffer is a stiffer membrane", "[produc
     soft.membrane.bending_stiffness_coated = soft.membrane.bending_stiffness;
     stiff.membrane.bending_stiffness = stiff.membrane.bending_stiffness_coated = 3 * soft.membrane.bending_stiffness;
     const double beta = BendingModel(soft.membrane).stiffness(0).value;
-    const LayerEnergy added(membrane_energy(soft).add(AddedStiffness{2 * beta})), stiffer(stiff);
+    const LayerEnergy added(membrane_energy(soft).add(AddedStiffness{2 * beta}), false), stiffer(stiff);
     auto one = point_equations(some_point(), point_radius, some_past(soft), {}, numbers(soft), added),
          other = point_equations(some_point(), point_radius, some_past(soft), {}, numbers(soft), stiffer);
     for (std::size_t i = 0; i < n_features; ++i)

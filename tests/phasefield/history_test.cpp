@@ -1,4 +1,5 @@
 #include "phasefield/driver/history.h"
+#include "shared/output/checkpoint_archive.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -30,8 +31,8 @@ TEST_CASE("what has come is the integral of the rates", "[history]") {
 
     Checkpoint checkpoint;
     MoleculeBalance continued, whole = came(1e-4, 0.7);
-    whole.save(checkpoint);
-    continued.load(checkpoint);
+    whole.serialize(CheckpointWriter(checkpoint));
+    continued.serialize(CheckpointReader(checkpoint));
     whole.advance(0.9, rate(0.9));
     continued.advance(0.9, rate(0.9));
     CHECK(continued.exchanged() == whole.exchanged());

@@ -50,7 +50,7 @@ struct Line {
 /// where the fluid outside rests, as in a bud's neck. Lengths in units of ε.
 ///
 /// A pressure of slope one inside is held by a normal force of slope g per area and a tension of slope l,
-/// p' = ∫_r^∞ δ_m (g + l/r) dr, and (ν r u')'/r = p' − δ_m l, which sums up to zero over the cross-section.
+/// p' = ∫_r^∞ δ_Γ (g + l/r) dr, and (ν r u')'/r = p' − δ_Γ l, which sums up to zero over the cross-section.
 double excess_flow(double radius, double ratio, const MembraneWeight& weight) {
     const FluidParameters fluid = fluids(ratio);
     const Line line(0, radius + 14, 40000);
@@ -58,7 +58,7 @@ double excess_flow(double radius, double ratio, const MembraneWeight& weight) {
     std::vector<double> density, viscosity;
     for (const double at : r) {
         const auto layer = layer_profile(radius - at, 1);
-        density.push_back(membrane_density(layer, weight));
+        density.push_back(delta_Gamma(layer, weight));
         viscosity.push_back(layer_viscosity(layer.phi, fluid, weight, ViscosityMean::arithmetic));
     }
     const auto beyond = [&](const std::vector<double>& up_to, std::size_t i) { return up_to.back() - up_to[i]; };
@@ -81,7 +81,7 @@ double excess_flow(double radius, double ratio, const MembraneWeight& weight) {
 
 TEST_CASE("a pipe of membrane carries what a sharp one does to third order", "[layer]") {
     // Without first moment what is left is of third order in ε over the radius; for equal viscosities, where the fluid
-    // sees nothing of the layer but how it pulls, less. What is cut off of δ_m adds some 1e-4.
+    // sees nothing of the layer but how it pulls, less. What is cut off of δ_Γ adds some 1e-4.
     const auto weight = membrane_weight(fluids(10), ViscosityMean::arithmetic);
     const double wide = excess_flow(20, 10, weight), narrow = excess_flow(10, 10, weight);
     CAPTURE(wide, narrow);

@@ -41,14 +41,14 @@ double power(const Parameters& p, const Radial& u_r, const Axial& u_z) {
     const std::vector<Vector> past{x};
     past.front().update_ghost_values();
     const StepPast history(one.space, numbers, past, {-2000}, {1}, past.front());
-    return load_power(one.space, numbers, history, x);
+    return load_power({one.space, one.energy, numbers, history}, x);
 }
 
 }  // namespace
 
 TEST_CASE("every load does its virtual work", "[loads]") {
     // δG = σ δA − p δV − F δz̄ of the flat membrane: exact integrals. Gauss points on cells of ε leave some 1e-4 of the
-    // integral of δ_m across the layer.
+    // integral of δ_Γ across the layer.
     Parameters none = small_case();
     none.phase_field.far_refinements = 0;
     const double R = none.domain.radius;

@@ -82,7 +82,7 @@ struct KnownStep {
     /// From the interpolated one.
     Vector solve() {
         Vector x = known();
-        one.solver.solve(one.space, numbers, history, x);
+        one.solver.solve({one.space, one.energy, numbers, history}, x);
         return x;
     }
 
@@ -131,9 +131,9 @@ TEST_CASE("old factors that lead to what is no number are made anew", "[newton]"
         if (std::exchange(once, false)) values[distance][0] = std::numeric_limits<double>::quiet_NaN();
         return values;
     };
-    const unsigned int before = step.one.solver.counts().factorisations;
+    const unsigned int before = step.one.solver.factors().made();
     Vector found = step.solve();
-    CHECK(step.one.solver.counts().factorisations == before + 1);
+    CHECK(step.one.solver.factors().made() == before + 1);
     found -= expected;
     CHECK(found.linfty_norm() < 1e-6 * expected.linfty_norm());  // changes of ψ below 1e-9 end Newton's method
 }

@@ -41,10 +41,9 @@ MomentAcross moment_across(const LayerEnergy& energy, double c, double epsilon, 
         double flux = 0;
         for (std::size_t j = 0; j < n_points; ++j) {
             const double psi = across(static_cast<int>(j), n, reach), rho = sphere_radius + psi;
-            const double w = energy_weight(layer_profile(psi, epsilon), psi, epsilon).value;
-            const double y = sheet_curvature(1.0, rho, epsilon).scaled;
-            const double source =
-                rho * rho * w * (2 / rho + sheet_state(energy, b.value[j], c, 0.0, y, epsilon).elastic.curvature);
+            const double w = energy_weight(psi, epsilon).value;
+            const auto at = sheet_point(energy, b.value[j], c, 0.0, 1.0, rho, epsilon);
+            const double source = rho * rho * w * (2 / rho + sheet_state(energy, at, epsilon).curvature);
             flux -= source * width;
             b.slope[j] = (flux + 0.5 * source * width) / (rho * rho * w * energy.compliance(epsilon));
         }
@@ -94,7 +93,7 @@ double net_force_of_sphere(double thickness, double growth) {
             x[molecule_density] = {c, 0.3 * up_r, 0.3 * up_z};
             x[Field::moment] = {b.value[j], slope * up_r + b.slope[j] * normal_r, slope * up_z + b.slope[j] * up};
             const auto rows = point_equations(x, r, past, {0, 0, 2 / rho}, at_step, energy);
-            const auto& G = rows[normal_force];  // less δ_m G, which would make it zero
+            const auto& G = rows[normal_force];  // less δ_Γ G, which would make it zero
             const double density = -(G.value * up + G.r * up_r + G.z * up_z) - rows[velocity_z].value;
             force += 2 * std::numbers::pi * rho * rho * polar.weights[i] * width * density;
         }

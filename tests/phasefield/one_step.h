@@ -9,7 +9,7 @@ namespace endoflow::phasefield::production {
 
 /// Numbers of a step; rate a₀ and profile relaxation M as given [1/µs, nm/µs].
 inline StepNumbers step_numbers(const Parameters& p, double rate, double profile_relaxation) {
-    StepNumbers numbers(p, membrane_weight(p.fluid, p.phase_field.viscosity_mean), rate);
+    StepNumbers numbers(CaseNumbers(p), rate);
     numbers.profile_relaxation = profile_relaxation;
     return numbers;
 }
@@ -20,7 +20,7 @@ struct OneStep {
         : mesh(coarse_mesh(p, MPI_COMM_SELF)),
           space(*mesh, field_degrees(p.phase_field)),
           energy(p),
-          solver(p, energy, MPI_COMM_SELF, tolerance) {
+          solver(p, MPI_COMM_SELF, tolerance) {
         space.distribute();
         close_constraints(space, p);
         solver.reinit(space);

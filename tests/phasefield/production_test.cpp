@@ -48,7 +48,7 @@ double first_volume_rate(double epsilon, double cell_size) {
     return measure(outcome.contour.curve, BendingModel(p.membrane)).extracellular_volume / tau;
 }
 
-/// The row of s over a₀ δ_m at a distance `psi` from a plane membrane that moves by `motion` nm along z in each of the
+/// The row of s over a₀ δ_Γ at a distance `psi` from a plane membrane that moves by `motion` nm along z in each of the
 /// last steps, s = 1: what would change s, relative, in this step.
 double change_of_stretch(const Parameters& p, double psi, double motion) {
     constexpr double tau = 1e-3;
@@ -62,8 +62,8 @@ double change_of_stretch(const Parameters& p, double psi, double motion) {
         past.normal = past.molecules_normal = {0, -1};
         for (std::size_t j = 0; j < 3; ++j) {
             const double before = -z - static_cast<double>(j + 1) * motion;
-            past.indicator += bdf.past[j] * cut_indicator(profile(before).phi, step.weight);
-            past.stretching += bdf.past[j] * membrane_density(profile(before), step.weight);
+            past.indicator += bdf.past[j] * H_Gamma(profile(before).phi, step.weight);
+            past.stretching += bdf.past[j] * delta_Gamma(profile(before), step.weight);
         }
         Fields<double> x;
         x[distance] = {-z, 0, -1};
@@ -73,7 +73,7 @@ double change_of_stretch(const Parameters& p, double psi, double motion) {
     };
     constexpr double h = 1e-4;
     const double divergence = (row(-psi + h).z - row(-psi - h).z) / (2 * h);
-    return (row(-psi).value - divergence) / (bdf.rate * membrane_density(profile(psi), step.weight));
+    return (row(-psi).value - divergence) / (bdf.rate * delta_Gamma(profile(psi), step.weight));
 }
 
 }  // namespace
@@ -126,8 +126,8 @@ TEST_CASE("backward differentiation is exact for polynomials of its order", "[pr
 
 TEST_CASE("a plane membrane does not stretch however far it moves in a step", "[production]") {
     // Central differences, at 4 ε of terms that are 300 times the weight there: measured 2.6e-4 at 4 ε, at most 2e-5
-    // nearer. With δ_m ∂ψ/∂t for the flux across, a motion of ε changes s by 0.07 (at −2 ε), 21 (2 ε) and 270 (4 ε),
-    // with ∂H/∂t but H not cut off as δ_m is by 8e-4, 6e-3 and 75.
+    // nearer. With δ_Γ ∂ψ/∂t for the flux across, a motion of ε changes s by 0.07 (at −2 ε), 21 (2 ε) and 270 (4 ε),
+    // with ∂H/∂t but H not cut off as δ_Γ is by 8e-4, 6e-3 and 75.
     const Parameters p;
     const double epsilon = p.phase_field.epsilon;
     for (const double motion : {0.1 * epsilon, epsilon})
@@ -144,7 +144,7 @@ TEST_CASE("the membrane's weight leaves no excess shear in the layer", "[product
         for (const ViscosityMean mean : {ViscosityMean::arithmetic, ViscosityMean::harmonic}) {
             fluid.viscosity_intracellular = ratio * 1e-3;
             const MembraneWeight weight = membrane_weight(fluid, mean);
-            CHECK(membrane_indicator(1.0, weight) == Approx(0.5).epsilon(1e-14));  // ∫δ_m dψ = 1
+            CHECK(membrane_indicator(1.0, weight) == Approx(0.5).epsilon(1e-14));  // ∫δ_Γ dψ = 1
             // Harmonic means of ratios above 7 are bounded by the smallest fluidity.
             if (mean == ViscosityMean::harmonic && std::abs(std::log(ratio)) > std::log(6)) continue;
             const ExcessShear excess = excess_shear(weight, fluid, mean);
@@ -233,7 +233,7 @@ TEST_CASE("the membrane is known at any time of the last step", "[production]") 
 
 TEST_CASE("the flow's first volume rate hardly depends on the layer's thickness", "[production]") {
     // The same case in the boundary-integral engine, one step of 1e-7 µs. Measured errors: 2.5e-3 at ε = 4.8 nm and
-    // less than a third of that at 2.4 nm; with δ instead of δ_m as the membrane's weight they are some per cent.
+    // less than a third of that at 2.4 nm; with δ instead of δ_Γ as the membrane's weight they are some per cent.
     constexpr double sharp = 4.2811e5;
     CHECK(first_volume_rate(4.8, 1.25) == Approx(sharp).epsilon(3e-3));
     CHECK(first_volume_rate(2.4, 1.25) == Approx(sharp).epsilon(8e-4));

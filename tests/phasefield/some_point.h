@@ -2,11 +2,9 @@
 
 #include <cmath>
 
-#include "phasefield/schemes/production/fields.h"
+#include "phasefield/schemes/production/equation_pattern.h"
 
 namespace endoflow::phasefield::production {
-
-inline constexpr std::size_t n_features = 3 * n_fields;
 
 template <class Number>
 Number& part(AtPoint<Number>& at, std::size_t which) {

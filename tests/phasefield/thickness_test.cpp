@@ -173,7 +173,7 @@ TEST_CASE("the layer's thickness is that of the membrane at a step's end", "[thi
 }
 
 TEST_CASE("what flows along a layer that thins stays what it is", "[thickness]") {
-    // A plane membrane at rest, the fluid moving along it: ∂(δ_m y)/∂t + ∇·(δ_m y v) of y = 1 vanishes though δ_m
+    // A plane membrane at rest, the fluid moving along it: ∂(δ_Γ y)/∂t + ∇·(δ_Γ y v) of y = 1 vanishes though δ_Γ
     // changes along the flow. Central differences of terms of order one: measured 5e-6; along sheets of constant ψ
     // 0.05.
     const Parameters p;

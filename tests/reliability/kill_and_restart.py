@@ -30,7 +30,9 @@ sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 import engines  # noqa: E402
 
-TOLERANCE = {"boundary-integral": 1e-10, "phase-field": 1e-8}
+#: A continued phase-field run makes new factors, and Newton's method ends where ψ changes by 9e-7 nm: 1.2e-4 of the
+#: height of 0.0076 nm in a run's first row, and of what follows from it.
+TOLERANCE = {"boundary-integral": 1e-10, "phase-field": 1e-3}
 
 # Small enough that a run takes seconds; a checkpoint after every step, a shape about as often.
 SETTINGS = {

@@ -85,6 +85,10 @@ TEST_CASE("the curvature of a moment is that at which the energy has this moment
         CHECK(e.partial[local::curvature] == Approx(moment).margin(1e-10));
         CHECK(state.density == Approx(e.value).epsilon(1e-12));
         CHECK(state.by_concentration == Approx(e.partial[local::concentration]).epsilon(1e-12));
+        // Wherever the search starts it ends there, by quadratic convergence to round-off.
+        for (const double near : {-0.4, 0.9 * state.curvature, 2.0})
+            CHECK(energy.conjugate(moment, 0.7, 0.1, near).partial[local::moment] ==
+                  Approx(state.curvature).epsilon(1e-12).margin(1e-12));
         CHECK(state.by_squared_gradient == Approx(e.partial[local::squared_gradient]).epsilon(1e-12));
     }
 }

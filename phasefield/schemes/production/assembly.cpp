@@ -7,6 +7,7 @@
 #include <array>
 #include <type_traits>
 
+#include "phasefield/schemes/production/cell_points.h"
 #include "phasefield/schemes/production/external_loads.h"
 #include "shared/numerics/vector_clones.h"
 
@@ -14,8 +15,6 @@ namespace endoflow::phasefield::production {
 
 namespace {
 
-constexpr std::size_t n_features = 3 * n_fields;     // rows: what test functions multiply
-constexpr std::size_t n_variables = n_features + 3;  // columns: besides, ψ's second derivatives
 constexpr Op operations[3] = {Op::value, Op::dr, Op::dz};
 using FeatureDual = Dual<n_variables>;
 
@@ -39,7 +38,7 @@ Fields<Number> fields_from(const PointValues& values) {
 
 /// From ψ's second derivatives rr, rz, zz, the last variables, where the normal is n.
 template <class Number>
-GradientChange<Number> change_from(const std::array<double, 3>& second, const DirectionOf<Number>& n,
+GradientChange<Number> change_from(const std::array<double, 3>& second, const PlaneVector<Number>& n,
                                    const Number& around) {
     std::array<Number, 3> x;
     for (unsigned int o = 0; o < 3; ++o) {
@@ -51,7 +50,7 @@ GradientChange<Number> change_from(const std::array<double, 3>& second, const Di
 
 }  // namespace
 
-// The equations with their derivatives in all variables are most of an assembly, and vector arithmetic.
+// The equations are most of an assembly, and vector arithmetic: 36 derivatives of each number, or those of W.
 ENDOFLOW_VECTOR_CLONES [[gnu::flatten]] Fields<FeatureDual> equations_at(const Fields<FeatureDual>& x, double r,
                                                                          const PointPast& past,
                                                                          const GradientChange<FeatureDual>& change,
@@ -59,26 +58,12 @@ ENDOFLOW_VECTOR_CLONES [[gnu::flatten]] Fields<FeatureDual> equations_at(const F
                                                                          const LayerEnergy& energy) {
     return point_equations(x, r, past, change, step, energy);
 }
-Fields<double> equations_at(const Fields<double>& x, double r, const PointPast& past,
-                            const GradientChange<double>& change, const StepNumbers& step, const LayerEnergy& energy) {
+ENDOFLOW_VECTOR_CLONES [[gnu::flatten]] Fields<double> equations_at(const Fields<double>& x, double r,
+                                                                    const PointPast& past,
+                                                                    const GradientChange<double>& change,
+                                                                    const StepNumbers& step,
+                                                                    const LayerEnergy& energy) {
     return point_equations(x, r, past, change, step, energy);
-}
-
-EquationPattern::EquationPattern(const Parameters& p, const LayerEnergy& energy) {
-    // Values without special meaning: everything that can depend on something does.
-    PointValues values;
-    for (unsigned int f = 0; f < n_fields; ++f) values[f] = {0.31 + 0.05 * f, 0.27 + 0.03 * f, 0.41 - 0.02 * f};
-    PointPast past;
-    past.normal = past.molecules_normal = {0.6, 0.8};
-    past.thickness = {p.phase_field.epsilon, 0.01, 0.02};
-    StepNumbers step(p, {}, 1.0);
-    step.move_at(1.0);  // what fades with the membrane's speed is there
-    const auto x = fields_from<FeatureDual>(values);
-    const auto change = change_from({0.3, 0.2, 0.1}, own_normal(x[distance], past), x[distance].r);
-    const auto rows = equations_at(x, 3.0, past, change, step, energy);
-    for (unsigned int row = 0; row < n_features; ++row)
-        for (unsigned int column = 0; column < n_variables; ++column)
-            if (feature(rows[row / 3], row % 3).partial[column] != 0) entries.push_back({row, column});
 }
 
 unsigned int gauss_points(const PhaseFieldParameters& p) {
@@ -90,22 +75,18 @@ namespace {
 /// The equations at the quadrature points of one cell after the other.
 class CellEquations {
   public:
-    CellEquations(const Space& space, const LayerEnergy& energy, const StepNumbers& step, const StepPast& history,
-                  const Vector& iterate)
-        : quadrature(gauss_points(step.numerics)),
-          local(space, quadrature, distance),
-          energy_(&energy),
-          step_(&step),
+    CellEquations(const StepProblem& problem, const Vector& iterate)
+        : quadrature(gauss_points(problem.numbers.numerics)),
+          local(problem.space, quadrature, distance),
+          problem_(&problem),
           iterate_(&iterate),
-          history_(&history),
-          values_(space.element.n_dofs_per_cell()) {}
+          values_(problem.space.element.n_dofs_per_cell()) {}
 
     /// Calls visit(q, measure, rows) at the quadrature points of the cell; measure is r dr dz.
     template <class Number, class Visit>
-    void on_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell, const Visit& visit) {
-        const CellBox box = cell_box(cell);
-        const auto& past = history_->points.at(cell->active_cell_index());
-        const auto& manufactured = history_->manufactured;
+    void on_cell(const Cell& cell, const CellBox& box, const Visit& visit) {
+        const auto& past = problem_->past.points.at(cell->active_cell_index());
+        const auto& manufactured = problem_->past.manufactured;
         cell->get_dof_values(*iterate_, values_);
         local.start(box, values_);
         const ScalarField& psi = local.field(distance);
@@ -117,7 +98,7 @@ class CellEquations {
             const auto x = fields_from<Number>(values);
             const auto change = change_from<Number>({psi.rr[q], psi.rz[q], psi.zz[q]}, own_normal(x[distance], past[q]),
                                                     x[distance].r / r);
-            auto rows = equations_at(x, r, past[q], change, *step_, *energy_);
+            auto rows = equations_at(x, r, past[q], change, problem_->numbers, problem_->energy);
             if (manufactured)
                 take_off(manufactured(r, box.z0 + box.hz * quadrature.point(q)[1]), r, past[q],
                          {value_of(change.r), value_of(change.z), value_of(change.laplacian)}, rows);
@@ -132,7 +113,8 @@ class CellEquations {
     template <class Number>
     void take_off(const PointValues& solution, double r, const PointPast& past, const GradientChange<double>& change,
                   Fields<Number>& rows) const {
-        const auto own = point_equations(fields_from<double>(solution), r, past, change, *step_, *energy_);
+        const auto own =
+            equations_at(fields_from<double>(solution), r, past, change, problem_->numbers, problem_->energy);
         for (unsigned int f = 0; f < n_fields; ++f) {
             rows[f].value = rows[f].value - own[f].value;
             rows[f].r = rows[f].r - own[f].r;
@@ -140,45 +122,44 @@ class CellEquations {
         }
     }
 
-    const LayerEnergy* energy_;
-    const StepNumbers* step_;
+    const StepProblem* problem_;
     const Vector* iterate_;
-    const StepPast* history_;
     dealii::Vector<double> values_;
 };
 
 /// The loop over cells: residual, and the Jacobian when Number carries derivatives.
 template <class Number>
-void assemble_cells(const Space& space, const EquationPattern& pattern, CellEquations equations, RimTension rim,
-                    const Vector& iterate, CondensedSystem& system) {
+void assemble_cells(const StepProblem& problem, const std::vector<PatternEntry>& pattern, const Vector& iterate,
+                    CondensedSystem& system) {
     constexpr bool with_jacobian = std::is_same_v<Number, FeatureDual>;
+    const Space& space = problem.space;
+    CellEquations equations(problem, iterate);
+    RimTension rim(space, problem.numbers);
     LocalSystem& local = equations.local;
     const unsigned int n = space.element.n_dofs_per_cell(), n_points = equations.quadrature.size();
     dealii::FullMatrix<double> cell_matrix(with_jacobian ? n : 0, with_jacobian ? n : 0);
     dealii::Vector<double> cell_rhs(n);
     std::vector<Coefficients> residual(n_features, Coefficients(n_points)),
-        jacobian(with_jacobian ? pattern.entries.size() : 0, Coefficients(n_points));
+        jacobian(with_jacobian ? pattern.size() : 0, Coefficients(n_points));
 
-    for (const auto& cell : space.dofs.active_cell_iterators()) {
-        if (!cell->is_locally_owned()) continue;
-        equations.on_cell<Number>(cell, [&](unsigned int q, double measure, const auto& rows) {
+    for_each_cell(space, [&](const Cell& cell, const CellBox& box) {
+        equations.on_cell<Number>(cell, box, [&](unsigned int q, double measure, const auto& rows) {
             for (unsigned int k = 0; k < n_features; ++k)
                 residual[k][q] = measure * value_of(feature(rows[k / 3], k % 3));
             if constexpr (with_jacobian)
-                for (std::size_t k = 0; k < pattern.entries.size(); ++k) {
-                    const auto [row, column] = pattern.entries[k];
+                for (std::size_t k = 0; k < pattern.size(); ++k) {
+                    const auto [row, column] = pattern[k];
                     jacobian[k][q] = measure * feature(rows[row / 3], row % 3).partial[column];
                 }
         });
         for (unsigned int k = 0; k < n_features; ++k) local.residual(k / 3, operations[k % 3], residual[k]);
         if constexpr (with_jacobian) {
-            const auto& entries = pattern.entries;  // all derivatives with respect to one field follow each other
-            for (std::size_t k = 0; k < entries.size();) {
-                const unsigned int row = entries[k].row, group = entries[k].column / 3;
+            for (std::size_t k = 0; k < pattern.size();) {  // all derivatives by one field follow each other
+                const unsigned int row = pattern[k].row, group = pattern[k].column / 3;
                 const bool twice = group == n_fields;
                 LocalSystem::Weights weights{};
-                for (; k < entries.size() && entries[k].row == row && entries[k].column / 3 == group; ++k)
-                    weights[entries[k].column % 3 + (twice ? 3 : 0)] = &jacobian[k];
+                for (; k < pattern.size() && pattern[k].row == row && pattern[k].column / 3 == group; ++k)
+                    weights[pattern[k].column % 3 + (twice ? 3 : 0)] = &jacobian[k];
                 local.jacobian(row / 3, operations[row % 3], twice ? unsigned{distance} : group, weights);
             }
             local.write_jacobian(cell_matrix);
@@ -189,36 +170,31 @@ void assemble_cells(const Space& space, const EquationPattern& pattern, CellEqua
             system.add(cell, cell_matrix, cell_rhs);
         else
             system.add(cell, cell_rhs);
-    }
+    });
 }
 
 }  // namespace
 
-void assemble(const Space& space, const EquationPattern& pattern, const LayerEnergy& energy, const StepNumbers& step,
-              const StepPast& history, const Vector& iterate, CondensedSystem& system) {
+void assemble(const StepProblem& problem, const std::vector<PatternEntry>& pattern, const Vector& iterate,
+              CondensedSystem& system) {
     system.start();
-    assemble_cells<FeatureDual>(space, pattern, CellEquations(space, energy, step, history, iterate),
-                                RimTension(space, step), iterate, system);
+    assemble_cells<FeatureDual>(problem, pattern, iterate, system);
 }
 
-void assemble_residual(const Space& space, const EquationPattern& pattern, const LayerEnergy& energy,
-                       const StepNumbers& step, const StepPast& history, const Vector& iterate,
-                       CondensedSystem& system) {
+void assemble_residual(const StepProblem& problem, const Vector& iterate, CondensedSystem& system) {
     system.start_right_hand_side();
-    assemble_cells<double>(space, pattern, CellEquations(space, energy, step, history, iterate),
-                           RimTension(space, step), iterate, system);
+    assemble_cells<double>(problem, {}, iterate, system);
 }
 
-double net_vertical_force(const Space& space, const LayerEnergy& energy, const StepNumbers& step,
-                          const StepPast& history, const Vector& solution) {
-    CellEquations equations(space, energy, step, history, solution);
+double net_vertical_force(const StepProblem& problem, const Vector& solution) {
+    CellEquations equations(problem, solution);
     double sum = 0;
-    for (const auto& cell : space.dofs.active_cell_iterators())
-        if (cell->is_locally_owned())
-            equations.on_cell<double>(cell, [&](unsigned int /*q*/, double measure, const auto& rows) {
-                sum -= two_pi * measure * rows[velocity_z].value;
-            });
-    return dealii::Utilities::MPI::sum(sum, space.dofs.get_communicator());
+    for_each_cell(problem.space, [&](const Cell& cell, const CellBox& box) {
+        equations.on_cell<double>(cell, box, [&](unsigned int /*q*/, double measure, const auto& rows) {
+            sum -= two_pi * measure * rows[velocity_z].value;
+        });
+    });
+    return dealii::Utilities::MPI::sum(sum, problem.space.dofs.get_communicator());
 }
 
 }  // namespace endoflow::phasefield::production

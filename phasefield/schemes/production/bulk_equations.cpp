@@ -10,100 +10,56 @@
 #include "phasefield/fem/reduction.h"
 #include "phasefield/layer/boundary_flux.h"
 #include "phasefield/schemes/production/assembly.h"
+#include "phasefield/schemes/production/cell_points.h"
 
 namespace endoflow::phasefield::production {
 
 namespace {
 
 constexpr double bulk_floor = constant("bulk_floor");
-constexpr double supply_alignment = constant("supply_alignment");
-
-using Cell = dealii::DoFHandler<2>::active_cell_iterator;
 
 /// χ of the fluid that has the molecules.
 double bulk_indicator(double phi, const BulkNumbers& numbers) {
     return 0.5 + numbers.sign * membrane_indicator(phi, {}) + bulk_floor;  // of δ itself
 }
 
-/// What the bulk's equations ask for at one quadrature point; `measure` is r dr dz.
+/// What the bulk's equations ask for at one quadrature point.
 struct BulkPoint {
-    double measure, indicator, velocity_r, velocity_z;
-    double delta, surface;  // δ, and with its floor [1/nm]
+    double indicator, velocity_r, velocity_z;
+    double delta, floored;  // δ, and with its floor [1/nm]
     double alignment;       // 1000 ε² [nm²]
     Direction normal;
     double coming, by_supply;  // j [1/µs] and its derivative by c_b/c_∞
 };
 
-class BulkPoints {
-  public:
-    BulkPoints(const BulkProblem& problem, BulkExchange exchange, const dealii::Quadrature<2>& quadrature)
-        : problem_(&problem),
-          exchange_(exchange),
-          quadrature_(&quadrature),
-          psi_(*problem.space, distance, quadrature),
-          velocity_r_(*problem.space, production::velocity_r, quadrature),
-          velocity_z_(*problem.space, production::velocity_z, quadrature),
-          molecules_(*problem.space, molecule_density, quadrature),
-          moment_(*problem.space, moment, quadrature),
-          supply_(problem.step->supply, quadrature) {}
-
-    /// Valid until the next call.
-    const std::vector<BulkPoint>& on(const Cell& cell, const CellBox& box) {
-        const StepNumbers& step = *problem_->step;
-        const Vector& x = *problem_->membrane;
-        const auto &psi = psi_.on(cell, box, x), &ur = velocity_r_.on(cell, box, x), &uz = velocity_z_.on(cell, box, x),
-                   &c = molecules_.on(cell, box, x), &b = moment_.on(cell, box, x);
-        const auto& supply = supply_.on(cell, box);
-        points_.clear();
-        for (unsigned int q = 0; q < quadrature_->size(); ++q) {
-            const auto& at = quadrature_->point(q);
-            const double r = box.r0 + box.hr * at[0];
-            const PointThickness thickness = step.thickness_at(cell->active_cell_index(), box, at[0], at[1]);
-            const double epsilon = thickness.value;
-            const auto layer = layer_profile(psi.value[q], epsilon);
-            const double length = std::max(std::hypot(psi.r[q], psi.z[q]), constant("shortest_gradient"));
-            BulkPoint point{quadrature_->weight(q) * box.hr * box.hz * r,
-                            bulk_indicator(layer.phi, *problem_->numbers),
-                            ur.value[q],
-                            uz.value[q],
-                            layer.delta,
-                            layer.delta + surface_floor / epsilon,
-                            supply_alignment * epsilon * epsilon,
-                            {psi.r[q] / length, psi.z[q] / length},
-                            0,
-                            0};
-            const auto sheet = sheet_gradient(AtPoint<double>{psi.value[q], psi.r[q], psi.z[q]}, thickness);
-            const double slope = (c.z[q] * sheet.r - c.r[q] * sheet.z) / std::hypot(sheet.r, sheet.z, gradient_floor);
-            set_exchange(b.value[q], c.value[q], slope, sheet_curvature(psi.r[q], r, epsilon).scaled, epsilon,
-                         supply[q], point);
-            points_.push_back(point);
-        }
-        return points_;
-    }
-
-  private:
-    /// j at given moment b, c, t·∇c and c_b/c_∞. One that is implicit takes molecules at a rate that falls with c_b
-    /// alone: c, which then is extrapolated, must not be beyond 1.
-    void set_exchange(double b, double c, double slope, double around, double epsilon, double supply,
-                      BulkPoint& point) const {
-        const StepNumbers& step = *problem_->step;
-        const LayerEnergy& energy = *problem_->energy;
-        const bool implicit = exchange_ == BulkExchange::implicit;
-        const double covered = implicit ? std::clamp(c, 0.0, 1.0) : c;
-        const auto state = sheet_state(energy, b, covered, slope, around, epsilon);
-        const auto rate = step.exchange.rate<Dual<1>>(covered, bending_by_concentration(energy, state, covered),
-                                                      step.molecules, Dual<1>::variable(implicit ? 1 : supply, 0));
-        point.coming = rate.value;
-        point.by_supply = implicit ? rate.partial[0] : 0;
-    }
-
-    const BulkProblem* problem_;
-    BulkExchange exchange_;
-    const dealii::Quadrature<2>* quadrature_;
-    ComponentField psi_, velocity_r_, velocity_z_, molecules_, moment_;
-    SupplyAtPoints supply_;
-    std::vector<BulkPoint> points_;
-};
+/// Of the membrane's fields `x`; c_b/c_∞ is `supply`. A j that is implicit takes molecules at a rate that falls with
+/// c_b alone: c, which then is extrapolated, must not be beyond 1.
+BulkPoint bulk_point(const BulkProblem& problem, BulkExchange exchange, const CellPoint& at, const Fields<double>& x,
+                     double supply) {
+    const StepNumbers& step = *problem.step;
+    const LayerEnergy& energy = *problem.energy;
+    const auto &psi = x[distance], &c = x[molecule_density];
+    const double epsilon = at.thickness.value;
+    const auto layer = layer_profile(psi.value, epsilon);
+    const double length = std::max(std::hypot(psi.r, psi.z), constant("shortest_gradient"));
+    const bool implicit = exchange == BulkExchange::implicit;
+    const double covered = implicit ? std::clamp(c.value, 0.0, 1.0) : c.value;
+    const double along = along_sheet(c, sheet_normal(psi, at.thickness).N_epsilon);
+    const auto state =
+        sheet_state(energy, sheet_point(energy, x[moment].value, covered, along, psi.r, at.r, epsilon), epsilon);
+    const auto j = step.exchange.rate<Dual<1>>(
+        covered, bending_by_concentration(energy, state.curvature, state.by_concentration, covered), step.molecules,
+        Dual<1>::variable(implicit ? 1 : supply, 0));
+    return {bulk_indicator(layer.phi, *problem.numbers),
+            x[velocity_r].value,
+            x[velocity_z].value,
+            layer.delta,
+            layer.delta + surface_floor / epsilon,
+            strong_alignment * epsilon * epsilon,
+            {psi.r / length, psi.z / length},
+            j.value,
+            implicit ? j.partial[0] : 0};
+}
 
 /// Faces of cells on walls, with what flows through them.
 class BulkWalls {
@@ -172,44 +128,44 @@ void add_walls(const BulkProblem& problem, BulkWalls& walls, const Cell& cell, c
 }  // namespace
 
 void assemble_bulk(const BulkProblem& problem, BulkExchange exchange, const Vector& past, LinearSystem& system) {
-    const Space& bulk = *problem.bulk;
+    const Space &bulk = *problem.bulk, &space = *problem.space;
     const BulkNumbers& numbers = *problem.numbers;
+    const StepNumbers& step = *problem.step;
     const dealii::QGauss<2> quadrature(bulk_gauss_points(problem));
-    BulkPoints at_points(problem, exchange, quadrature);
     BulkWalls walls(problem);
     LocalSystem local(bulk, quadrature);
     const unsigned int n = bulk.element.n_dofs_per_cell(), n_points = quadrature.size();
     dealii::FullMatrix<double> matrix(n, n);
     dealii::Vector<double> right_hand_side(n), values(n);
     std::vector<dealii::types::global_dof_index> indices(n);
-    // d's row: χ (a₀ d + past + u·∇d), χD∇d, and what the exchange takes; d̄'s row: s (d̄ − d), 1000 ε² s n n·∇d̄.
+    // d's row: χ (a₀ d + past + u·∇d), χD∇d, and what the exchange takes; d̄'s row: s (d̄ − d), 1000 ε² s N N·∇d̄.
     Coefficients changing(n_points), carried_r(n_points), carried_z(n_points), conducting(n_points), taking(n_points),
         source(n_points), seen(n_points), unseen(n_points), rr(n_points), rz(n_points), zz(n_points);
-    system.start();
-    for (const auto& cell : problem.space->dofs.active_cell_iterators()) {
-        if (!cell->is_locally_owned()) continue;
+    std::vector<Wanted> wanted{{&space, problem.membrane, {velocity_r, velocity_z, distance, molecule_density, moment}},
+                               {&bulk, &past, {depletion}}};
+    if (step.supply) wanted.push_back({step.supply->space, &step.supply->values, {depletion_at_membrane}});
+    const auto add_point = [&](const CellPoint& at, const auto& x) {
+        const unsigned int q = at.q;
+        const double supply = step.supply ? 1 - x[2][depletion_at_membrane].value : 1;
+        const BulkPoint p = bulk_point(problem, exchange, at, x[0], supply);
+        const double measure = at.measure / two_pi, fluid = measure * p.indicator;
+        const double layer = measure * p.delta / numbers.coat;
+        changing[q] = fluid * step.rate;
+        carried_r[q] = fluid * p.velocity_r;
+        carried_z[q] = fluid * p.velocity_z;
+        conducting[q] = fluid * numbers.diffusivity;
+        taking[q] = layer * p.by_supply;
+        source[q] = fluid * x[1][depletion].value - layer * p.coming;
+        seen[q] = measure * p.floored;
+        unseen[q] = -seen[q];
+        const double aligning = seen[q] * p.alignment;
+        rr[q] = aligning * p.normal.r * p.normal.r;
+        rz[q] = aligning * p.normal.r * p.normal.z;
+        zz[q] = aligning * p.normal.z * p.normal.z;
+    };
+    const auto add_cell = [&](const Cell& cell) {
         const CellBox box = cell_box(cell);
-        const auto bulk_cell = same_cell(cell, bulk);
-        bulk_cell->get_dof_values(past, values);
         local.start(box, values);
-        const auto& before = local.field(depletion).value;
-        const auto& points = at_points.on(cell, box);
-        for (unsigned int q = 0; q < n_points; ++q) {
-            const BulkPoint& p = points[q];
-            const double fluid = p.measure * p.indicator, layer = p.measure * p.delta / numbers.coat;
-            changing[q] = fluid * problem.step->rate;
-            carried_r[q] = fluid * p.velocity_r;
-            carried_z[q] = fluid * p.velocity_z;
-            conducting[q] = fluid * numbers.diffusivity;
-            taking[q] = layer * p.by_supply;
-            source[q] = fluid * before[q] - layer * p.coming;
-            seen[q] = p.measure * p.surface;
-            unseen[q] = -seen[q];
-            const double aligning = seen[q] * p.alignment;
-            rr[q] = aligning * p.normal.r * p.normal.r;
-            rz[q] = aligning * p.normal.r * p.normal.z;
-            zz[q] = aligning * p.normal.z * p.normal.z;
-        }
         local.jacobian(depletion, Op::value, depletion, {&changing, &carried_r, &carried_z});
         local.jacobian(depletion, Op::dr, depletion, {nullptr, &conducting, nullptr});
         local.jacobian(depletion, Op::dz, depletion, {nullptr, nullptr, &conducting});
@@ -221,72 +177,62 @@ void assemble_bulk(const BulkProblem& problem, BulkExchange exchange, const Vect
         local.residual(depletion, Op::value, source);
         local.write(matrix, right_hand_side);
         add_walls(problem, walls, cell, box, matrix);
-        bulk_cell->get_dof_indices(indices);
+        same_cell(cell, bulk)->get_dof_indices(indices);
         bulk.constraints.distribute_local_to_global(matrix, right_hand_side, indices, system.matrix,
                                                     system.right_hand_side);
-    }
+    };
+    system.start();
+    for_each_point(space, step, quadrature, wanted, add_point, add_cell);
 }
 
 void assemble_unit_exchange(const BulkProblem& problem, LinearSystem& system) {
     const Space& bulk = *problem.bulk;
     const dealii::QGauss<2> quadrature(bulk_gauss_points(problem));
-    ComponentField psi(*problem.space, distance, quadrature);
     LocalSystem local(bulk, quadrature);
     const unsigned int n = bulk.element.n_dofs_per_cell();
     dealii::Vector<double> right_hand_side(n), zero(n);
     std::vector<dealii::types::global_dof_index> indices(n);
     Coefficients source(quadrature.size());
     system.right_hand_side = 0;
-    for (const auto& cell : problem.space->dofs.active_cell_iterators()) {
-        if (!cell->is_locally_owned()) continue;
-        const CellBox box = cell_box(cell);
-        local.start(box, zero);
-        const auto& position = psi.on(cell, box, *problem.membrane);
-        for (unsigned int q = 0; q < quadrature.size(); ++q) {
-            const auto& at = quadrature.point(q);
-            const double epsilon = problem.step->thickness_at(cell->active_cell_index(), box, at[0], at[1]).value;
-            const double r = box.r0 + box.hr * at[0];
-            source[q] = -quadrature.weight(q) * box.hr * box.hz * r / problem.numbers->coat *
-                        layer_profile(position.value[q], epsilon).delta;
-        }
-        local.residual(depletion, Op::value, source);
-        local.write_residual(right_hand_side);
-        same_cell(cell, bulk)->get_dof_indices(indices);
-        bulk.constraints.distribute_local_to_global(right_hand_side, indices, system.right_hand_side);
-    }
+    for_each_point(
+        *problem.space, *problem.step, quadrature, {{problem.space, problem.membrane, {distance}}},
+        [&](const CellPoint& at, const auto& x) {
+            const double delta = layer_profile(x[0][distance].value, at.thickness.value).delta;
+            source[at.q] = -at.measure / two_pi / problem.numbers->coat * delta;
+        },
+        [&](const Cell& cell) {
+            local.start(cell_box(cell), zero);
+            local.residual(depletion, Op::value, source);
+            local.write_residual(right_hand_side);
+            same_cell(cell, bulk)->get_dof_indices(indices);
+            bulk.constraints.distribute_local_to_global(right_hand_side, indices, system.right_hand_side);
+        });
 }
 
 BulkIntegrals integrate_bulk(const BulkProblem& problem, const Vector& solution) {
     const BulkNumbers& numbers = *problem.numbers;
     const dealii::QGauss<2> quadrature(bulk_gauss_points(problem));
-    ComponentField psi(*problem.space, distance, quadrature), missing(*problem.bulk, depletion, quadrature),
-        seen(*problem.bulk, depletion_at_membrane, quadrature);
     BulkWalls walls(problem);
     BulkIntegrals out;
-    for (const auto& cell : problem.space->dofs.active_cell_iterators()) {
-        if (!cell->is_locally_owned()) continue;
-        const CellBox box = cell_box(cell);
-        const auto bulk_cell = same_cell(cell, *problem.bulk);
-        const auto &position = psi.on(cell, box, *problem.membrane), &d = missing.on(bulk_cell, box, solution),
-                   &at_membrane = seen.on(bulk_cell, box, solution);
-        for (unsigned int q = 0; q < quadrature.size(); ++q) {
-            const auto& at = quadrature.point(q);
-            const double epsilon = problem.step->thickness_at(cell->active_cell_index(), box, at[0], at[1]).value;
-            const auto layer = layer_profile(position.value[q], epsilon);
-            const double w = two_pi * quadrature.weight(q) * box.hr * box.hz * (box.r0 + box.hr * at[0]);
-            const double fluid = w * bulk_indicator(layer.phi, numbers);
-            out.missing += numbers.coat * fluid * d.value[q];
-            out.molecules += numbers.concentration * fluid * (1 - d.value[q]);
-            out.area += w * layer.delta;
-            out.at_membrane += w * layer.delta * (1 - at_membrane.value[q]);
-        }
+    for_each_point(
+        *problem.space, *problem.step, quadrature,
+        {{problem.space, problem.membrane, {distance}}, {problem.bulk, &solution, {depletion, depletion_at_membrane}}},
+        [&](const CellPoint& at, const auto& x) {
+            const auto layer = layer_profile(x[0][distance].value, at.thickness.value);
+            const double fluid = at.measure * bulk_indicator(layer.phi, numbers), d = x[1][depletion].value;
+            out.missing += numbers.coat * fluid * d;
+            out.molecules += numbers.concentration * fluid * (1 - d);
+            out.area += at.measure * layer.delta;
+            out.at_membrane += at.measure * layer.delta * (1 - x[1][depletion_at_membrane].value);
+        });
+    for_each_cell(*problem.space, [&](const Cell& cell, const CellBox& box) {
         walls.on(cell, box,
                  [&](BulkWalls::Face& face, unsigned int q, double measure, double indicator, double outflow) {
-                     const double depleted = face.depletion.on(bulk_cell, box, solution).value[q];
+                     const double depleted = face.depletion.on(same_cell(cell, *problem.bulk), box, solution).value[q];
                      out.leaving += two_pi * measure * numbers.coat * indicator *
                                     (std::max(outflow, 0.0) + numbers.exchange_with_outside) * depleted;
                  });
-    }
+    });
     sum_over_processes({&out.missing, &out.leaving, &out.molecules, &out.area, &out.at_membrane},
                        problem.space->dofs.get_communicator());
     return out;

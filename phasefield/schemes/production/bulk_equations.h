@@ -1,6 +1,7 @@
 #pragma once
 
 #include "phasefield/schemes/production/layer_energy.h"
+#include "phasefield/schemes/production/step_numbers.h"
 #include "phasefield/solver/linear_system.h"
 
 namespace endoflow::phasefield::production {
@@ -16,7 +17,7 @@ namespace endoflow::phasefield::production {
 //
 // which keeps a constant d whatever the layer does: in its outer tail, where χ falls by e^2.8 per ε, the difference of
 // χd and its past would be one of large numbers. What that loses of ∫χd is made up for by BulkTransport::take. The
-// membrane sees d̄, the mean across the layer: s d̄ − ∇·(1000 ε² s n n·∇d̄) = s d, s being δ with a floor. Where it takes
+// membrane sees d̄, the mean across the layer: s d̄ − ∇·(1000 ε² s N N·∇d̄) = s d, s being δ with a floor. Where it takes
 // up all that comes d̄ = 0, so that c_b, again linear, vanishes in the middle of the layer and not in front of it.
 
 /// Numbers of a bulk.

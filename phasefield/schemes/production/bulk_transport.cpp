@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "shared/output/checkpoint_archive.h"
+
 namespace endoflow::phasefield::production {
 
 namespace {
@@ -49,15 +51,8 @@ BulkProblem BulkTransport::problem(const BulkStep& step) const {
     return {&space_, &numbers_, &step.space, &step.membrane, &step.energy, &step.numbers};
 }
 
-Vector BulkTransport::combined(const std::vector<double>& weights) const {
-    Vector out = space_.vector();
-    for (std::size_t j = 0; j < weights.size(); ++j) out.add(weights[j], solutions_[j]);
-    out.update_ghost_values();
-    return out;
-}
-
 Vector BulkTransport::solve(const BulkStep& step, BulkExchange exchange) {
-    assemble_bulk(problem(step), exchange, combined(step.bdf.past), system_);
+    assemble_bulk(problem(step), exchange, combination(space_, step.bdf.past, solutions_), system_);
     system_.forget_factors();  // a continued run then does the same
     Vector out = space_.vector();
     system_.solve(space_.constraints, out);
@@ -69,7 +64,7 @@ std::shared_ptr<const BulkSupply> BulkTransport::foresee(const BulkStep& step) {
 }
 
 /// Molecules are counted by BDF, too: with m = ∫ c dA, p = a₀c_∞ ∫ χd and f what the walls make up for, the derivative
-/// of m − p − f is to vanish. What is not right after the solve is the difference of j under δ and under δ_m, of the
+/// of m − p − f is to vanish. What is not right after the solve is the difference of j under δ and under δ_Γ, of the
 /// order of ε², what Newton's method has left of m, and what the layer's motion and a new mesh have made of ∫ χd. A
 /// uniform j makes up for it, at the membrane, where it has come from.
 BulkMeasures BulkTransport::take(const BulkStep& step, const std::vector<double>& masses, double mass, double tau) {
@@ -122,57 +117,25 @@ std::shared_ptr<const BulkSupply> BulkTransport::supply() const {
 }
 
 void BulkTransport::before_adaptation() {
-    transfer_ = std::make_unique<Transfer>(space_.dofs);
-    std::vector<const Vector*> vectors;
-    for (const auto& solution : solutions_) vectors.push_back(&solution);
-    transfer_->prepare_for_coarsening_and_refinement(vectors);
+    transfer_ = MeshTransfer::for_adaptation(space_, solutions_);
 }
 
 void BulkTransport::after_adaptation() {
     distribute();
-    std::vector<Vector> carried(solutions_.size(), space_.vector());
-    std::vector<Vector*> targets;
-    for (auto& vector : carried) targets.push_back(&vector);
-    transfer_->interpolate(targets);
+    solutions_ = transfer_->adapted(space_);
     transfer_.reset();
-    for (auto& vector : carried) {
-        space_.hanging_nodes.distribute(vector);
-        vector.update_ghost_values();
-    }
-    solutions_ = std::move(carried);
 }
 
-void BulkTransport::save(Checkpoint& checkpoint, const std::shared_ptr<const BulkSupply>& of_factors) {
-    checkpoint.arrays["bulk_missing"] = missing_;
-    checkpoint.arrays["bulk_made_up"] = made_up_;
-    checkpoint.scalars["bulk_first_mass"] = first_mass_;
-    checkpoint.scalars["bulk_corrected"] = corrected_;
-    checkpoint.scalars["bulk_of_factors"] = of_factors ? 1 : 0;
-    transfer_ = std::make_unique<Transfer>(space_.dofs);
-    std::vector<const Vector*> vectors;
-    for (const auto& solution : solutions_) vectors.push_back(&solution);
-    if (of_factors) vectors.push_back(&of_factors->values);
-    transfer_->prepare_for_serialization(vectors);
+void BulkTransport::save(Checkpoint& checkpoint) {
+    serialize(CheckpointWriter(checkpoint));
+    transfer_ = MeshTransfer::for_saving(space_, solutions_);
 }
 
-std::shared_ptr<const BulkSupply> BulkTransport::load(const Checkpoint& checkpoint) {
-    missing_ = checkpoint.array("bulk_missing");
-    made_up_ = checkpoint.array("bulk_made_up");
-    first_mass_ = checkpoint.scalar("bulk_first_mass");
-    corrected_ = checkpoint.scalar("bulk_corrected");
+void BulkTransport::load(const Checkpoint& checkpoint) {
+    serialize(CheckpointReader(checkpoint));
     distribute();
     renew();
-    const bool with_factors = checkpoint.scalar("bulk_of_factors") != 0;
-    solutions_.assign(missing_.size() + (with_factors ? 1 : 0), space_.vector());
-    std::vector<Vector*> targets;
-    for (auto& vector : solutions_) targets.push_back(&vector);
-    Transfer transfer(space_.dofs);
-    transfer.deserialize(targets);
-    for (const auto& solution : solutions_) solution.update_ghost_values();
-    if (!with_factors) return {};
-    auto of_factors = supply_of(solutions_.back());
-    solutions_.pop_back();
-    return of_factors;
+    solutions_ = MeshTransfer::loaded(space_, missing_.size());
 }
 
 }  // namespace endoflow::phasefield::production

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <deal.II/distributed/solution_transfer.h>
-
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "phasefield/fem/mesh_transfer.h"
 #include "phasefield/schemes/interface/diagnostics.h"
 #include "phasefield/schemes/production/bdf.h"
 #include "phasefield/schemes/production/bulk_equations.h"
@@ -45,23 +45,26 @@ class BulkTransport {
     /// When it has changed for the last time.
     void renew();
 
-    /// Before the mesh is saved, after the membrane's own vectors; `of_factors`: the supply that Newton's factors have
-    /// seen, if there is one.
-    void save(Checkpoint& checkpoint, const std::shared_ptr<const BulkSupply>& of_factors);
-    /// In the same order; returns `of_factors`.
-    std::shared_ptr<const BulkSupply> load(const Checkpoint& checkpoint);
+    /// Before the mesh is saved, after the membrane's own vectors.
+    void save(Checkpoint& checkpoint);
+    /// In the same order.
+    void load(const Checkpoint& checkpoint);
 
     [[nodiscard]] const Space& space() const { return space_; }
-    /// Σ_j weights[j] × the solution at t_j, newest first.
-    [[nodiscard]] Vector combined(const std::vector<double>& weights) const;
+    [[nodiscard]] const std::vector<Vector>& solutions() const { return solutions_; }
 
   private:
-    using Transfer = dealii::parallel::distributed::SolutionTransfer<2, Vector>;
-
     [[nodiscard]] BulkProblem problem(const BulkStep& step) const;
     Vector solve(const BulkStep& step, BulkExchange exchange);
     [[nodiscard]] std::shared_ptr<const BulkSupply> supply_of(const Vector& solution) const;
     void distribute();
+    template <class Archive>
+    void serialize(Archive&& archive) {
+        archive("bulk_missing", missing_);
+        archive("bulk_made_up", made_up_);
+        archive("bulk_first_mass", first_mass_);
+        archive("bulk_corrected", corrected_);
+    }
 
     BulkNumbers numbers_;
     Space space_;
@@ -74,7 +77,7 @@ class BulkTransport {
 
     Vector trial_;
     double trial_missing_ = 0, trial_made_up_ = 0, trial_corrected_ = 0;
-    std::unique_ptr<Transfer> transfer_;
+    std::optional<MeshTransfer> transfer_;
 };
 
 }  // namespace endoflow::phasefield::production

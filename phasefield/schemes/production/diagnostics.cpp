@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "phasefield/fem/component_field.h"
 #include "phasefield/fem/reduction.h"
 #include "phasefield/schemes/production/assembly.h"
+#include "phasefield/schemes/production/cell_points.h"
 #include "phasefield/schemes/production/constants.h"
 
 namespace endoflow::phasefield::production {
@@ -19,94 +19,121 @@ constexpr double hardly_present = constant("hardly_present");
 
 }  // namespace
 
+namespace {
+
+/// What a point has at the end of a step, and what it adds to the measures.
+struct PointState {
+    PointState(const CellPoint& at, const Fields<double>& fields, const LayerEnergy& energy, const StepNumbers& step)
+        : x(fields),
+          epsilon(at.thickness.value),
+          layer(layer_profile(x[distance].value, epsilon)),
+          delta_E(energy_weight(x[distance].value, epsilon).value),
+          delta_Gamma(production::delta_Gamma(layer, step.weight)),
+          N(sheet_normal(x[distance], at.thickness).N_epsilon),
+          along(along_sheet(x[molecule_density], N)),
+          elastic(sheet_state(
+              energy,
+              sheet_point(energy, x[moment].value, x[molecule_density].value, along, x[distance].r, at.r, epsilon),
+              epsilon)),
+          e_c(energy.coupled ? x[molecule_potential].value : elastic.by_concentration) {}
+
+    const Fields<double>& x;
+    double epsilon;
+    LayerProfile<double> layer;
+    double delta_E, delta_Gamma;
+    Direction N;   // N_ε
+    double along;  // ∂ₜc
+    SheetState elastic;
+    double e_c;  // or μ
+};
+
+/// (D) per volume where it is stationary over m [pN/nm²].
+double energy_per_volume(const PointState& at, const LayerEnergy& energy) {
+    const auto& m = at.x[moment];
+    const double tilt = dot(at.x[distance], m);
+    return at.delta_E * (at.elastic.density + 0.5 * energy.compliance(at.epsilon) * tilt * tilt) +
+           0.5 * energy.smoothing(at.epsilon) * dot(m, m);
+}
+
+void add_flow(const PointState& at, double r, double w, const StepNumbers& step, StepDiagnostics& diagnostics) {
+    const auto &ur = at.x[velocity_r], &uz = at.x[velocity_z];
+    const double nu = layer_viscosity(at.layer.phi, step.fluid, step.weight, step.numerics.viscosity_mean);
+    const double hoop = ur.value / r, shear = ur.z + uz.r, divergence = ur.r + hoop + uz.z;
+    const double stretching = surface_divergence(at.N.r, at.N.z, ur.r, hoop, uz.z, shear);
+    diagnostics.viscous_dissipation += w * nu *
+                                       (2 * (ur.r * ur.r + uz.z * uz.z + hoop * hoop) + shear * shear +
+                                        step.divergence_penalty * divergence * divergence);
+    diagnostics.tension_power += w * (at.delta_Gamma * at.x[tension].value * stretching -
+                                      at.layer.delta * at.x[pressure_layer].value * divergence);
+    if (step.fluid.dynamics != Dynamics::geometric) return;
+    const double G = at.x[normal_force].value;
+    diagnostics.mobility_dissipation += w * step.fluid.normal_mobility * G * G * at.delta_Gamma;
+}
+
+/// `rate` is ∂c/∂t, `bulk` c_b/c_∞.
+void add_molecules(const PointState& at, double w, double rate, double bulk, const LayerEnergy& energy,
+                   const StepNumbers& step, StepDiagnostics& diagnostics) {
+    const auto& c = at.x[molecule_density];
+    if (energy.coupled) {
+        const double edge = energy.edge.density(at.elastic.curvature, c.value, at.along * at.along).value;
+        const double driven = along_sheet(at.x[molecule_potential], at.N);
+        diagnostics.line_energy += w * at.delta_E * edge;
+        diagnostics.bending_energy -= w * at.delta_E * edge;
+        diagnostics.molecule_dissipation += w * step.transport.mobility * at.delta_E * driven * driven;
+    }
+    if (!step.exchange.none()) {
+        const double j = step.exchange.rate<double>(
+            c.value, bending_by_concentration(energy, at.elastic.curvature, at.elastic.by_concentration, c.value),
+            step.molecules, bulk);
+        diagnostics.exchange_rate += w * at.delta_Gamma * j;
+        diagnostics.exchange_power += w * at.delta_Gamma * j * at.e_c;
+    }
+    const double carried = at.x[velocity_r].value * c.r + at.x[velocity_z].value * c.z;
+    diagnostics.transport_power += w * at.delta_Gamma * at.e_c * (rate + carried);
+}
+
+void raise(double& largest, double value) {
+    largest = std::max(largest, value);
+}
+
+}  // namespace
+
 SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy, const StepNumbers& step,
                                   const Vector& before, const Vector& predicted, const Vector& rate,
                                   const Vector& solution) {
-    const auto& numerics = step.numerics;
-    const dealii::QGauss<2> quadrature(gauss_points(numerics));
-    LocalSystem local(space, quadrature);
-    ComponentField molecule_rate(space, molecule_density, quadrature);
-    SupplyAtPoints supply(step.supply, quadrature);
-    ComponentField old_distance(space, distance, quadrature), predicted_distance(space, distance, quadrature);
-    dealii::Vector<double> values(space.element.n_dofs_per_cell());
+    const dealii::QGauss<2> quadrature(gauss_points(step.numerics));
+    std::vector<Wanted> wanted{{&space,
+                                &solution,
+                                {velocity_r, velocity_z, pressure_layer, tension, distance, normal_force, moment,
+                                 molecule_density, molecule_potential, membrane_stretch}},
+                               {&space, &before, {distance}},
+                               {&space, &predicted, {distance}},
+                               {&space, &rate, {molecule_density}}};
+    if (step.supply) wanted.push_back({step.supply->space, &step.supply->values, {depletion_at_membrane}});
     SolutionMeasures out{};
     auto& [integrals, diagnostics, difference, layer_motion, molecules_rate] = out;
-    for (const auto& cell : space.dofs.active_cell_iterators()) {
-        if (!cell->is_locally_owned()) continue;
-        const CellBox box = cell_box(cell);
-        cell->get_dof_values(solution, values);
-        local.start(box, values);
-        const auto &old_psi = old_distance.on(cell, box, before), &guess = predicted_distance.on(cell, box, predicted),
-                   &c_rate = molecule_rate.on(cell, box, rate);
-        const auto& bulk = supply.on(cell, box);
-        const auto &ur = local.field(velocity_r), &uz = local.field(velocity_z), &psi = local.field(distance),
-                   &lambda = local.field(tension), &layer_pressure = local.field(pressure_layer),
-                   &c = local.field(molecule_density), &s = local.field(membrane_stretch), &b = local.field(moment),
-                   &mu = local.field(molecule_potential), &g = local.field(normal_force);
-        for (unsigned int q = 0; q < quadrature.size(); ++q) {
-            const double r = box.r0 + box.hr * quadrature.point(q)[0];
-            const double w = two_pi * quadrature.weight(q) * box.hr * box.hz * r;
-            const auto& at = quadrature.point(q);
-            const PointThickness thickness = step.thickness_at(cell->active_cell_index(), box, at[0], at[1]);
-            const double epsilon = thickness.value;
-            const AtPoint<double> distance_here{psi.value[q], psi.r[q], psi.z[q]};
-            const auto layer = layer_profile(psi.value[q], epsilon);
-            const double gradient = std::hypot(psi.r[q], psi.z[q]), density = membrane_density(layer, step.weight);
-            const auto sheet = sheet_gradient(distance_here, thickness);
-            const double length = std::hypot(sheet.r, sheet.z, gradient_floor);
-            const double slope = (c.z[q] * sheet.r - c.r[q] * sheet.z) / length;
-            const auto state = sheet_state(energy, b.value[q], c.value[q], slope,
-                                           sheet_curvature(psi.r[q], r, epsilon).scaled, epsilon);
-            const auto& elastic = state.elastic;
-            const double nu = layer_viscosity(layer.phi, step.fluid, step.weight, numerics.viscosity_mean);
-            const double hoop = ur.value[q] / r, shear = ur.z[q] + uz.r[q], divergence = ur.r[q] + hoop + uz.z[q];
-            const double stretching =
-                surface_divergence(sheet.r / length, sheet.z / length, ur.r[q], hoop, uz.z[q], shear);
-            integrals.area += w * layer.delta;
-            integrals.molecules += w * density * c.value[q];
-            integrals.stretching += w * density * s.value[q];
-            const auto weight = energy_weight(layer, psi.value[q], epsilon);
-            diagnostics.bending_energy += w * energy_per_volume({b.value[q], b.r[q], b.z[q]}, distance_here, elastic,
-                                                                weight.value, epsilon, energy);
-            diagnostics.viscous_dissipation += w * nu *
-                                               (2 * (ur.r[q] * ur.r[q] + uz.z[q] * uz.z[q] + hoop * hoop) +
-                                                shear * shear + step.divergence_penalty * divergence * divergence);
-            if (step.fluid.dynamics == Dynamics::geometric)
-                diagnostics.mobility_dissipation += w * step.fluid.normal_mobility * g.value[q] * g.value[q] * density;
-            diagnostics.tension_power +=
-                w * (density * lambda.value[q] * stretching - layer.delta * layer_pressure.value[q] * divergence);
-            // δ(E + E_c)/δc where the energy is coupled.
-            const double potential = energy.coupled ? mu.value[q] : state.by_concentration;
-            if (energy.coupled) {
-                const double line =
-                    w * weight.value * energy.edge.density(elastic.curvature, c.value[q], slope * slope).value;
-                diagnostics.line_energy += line;
-                diagnostics.bending_energy -= line;
-                const double driven = (mu.z[q] * sheet.r - mu.r[q] * sheet.z) / length;
-                diagnostics.molecule_dissipation += w * step.transport.mobility * weight.value * driven * driven;
-            }
-            if (!step.exchange.none()) {
-                const double coming = step.exchange.rate<double>(
-                    c.value[q], bending_by_concentration(energy, state, c.value[q]), step.molecules, bulk[q]);
-                diagnostics.exchange_rate += w * density * coming;
-                diagnostics.exchange_power += w * density * coming * potential;
-            }
-            diagnostics.transport_power +=
-                w * density * potential * (c_rate.value[q] + ur.value[q] * c.r[q] + uz.value[q] * c.z[q]);
-            if (std::abs(layer.phi) > layer_edge) continue;
-            diagnostics.area_strain_max = std::max(diagnostics.area_strain_max, std::abs(s.value[q] - 1));
-            const double thickness_error = std::abs(gradient - 1);
-            if (std::abs(layer.phi) < layer_middle)
-                diagnostics.thickness_error_max = std::max(diagnostics.thickness_error_max, thickness_error);
-            diagnostics.profile_error_max = std::max(diagnostics.profile_error_max, thickness_error);
-            const double motion = std::abs(psi.value[q] - old_psi.value[q]);
-            diagnostics.motion_max = std::max(diagnostics.motion_max, motion);
-            molecules_rate = std::max(molecules_rate, std::abs(c_rate.value[q]));
-            layer_motion = std::max(layer_motion, motion * numerics.epsilon / epsilon);
-            if (std::abs(layer.phi) < layer_middle)
-                difference = std::max(difference, std::abs(psi.value[q] - guess.value[q]));
-        }
-    }
+    for_each_point(space, step, quadrature, wanted, [&](const CellPoint& point, const auto& x) {
+        const PointState at(point, x[0], energy, step);
+        const double w = point.measure, psi = at.x[distance].value, s = at.x[membrane_stretch].value;
+        integrals.area += w * at.layer.delta;
+        integrals.molecules += w * at.delta_Gamma * at.x[molecule_density].value;
+        integrals.stretching += w * at.delta_Gamma * s;
+        diagnostics.bending_energy += w * energy_per_volume(at, energy);
+        add_flow(at, point.r, w, step, diagnostics);
+        add_molecules(at, w, x[3][molecule_density].value, step.supply ? 1 - x[4][depletion_at_membrane].value : 1,
+                      energy, step, diagnostics);
+        if (std::abs(at.layer.phi) > layer_edge) return;
+        const double thickness_error = std::abs(std::hypot(at.x[distance].r, at.x[distance].z) - 1);
+        const double motion = std::abs(psi - x[1][distance].value);
+        raise(diagnostics.area_strain_max, std::abs(s - 1));
+        raise(diagnostics.profile_error_max, thickness_error);
+        raise(diagnostics.motion_max, motion);
+        raise(layer_motion, motion * step.numerics.epsilon / at.epsilon);
+        raise(molecules_rate, std::abs(x[3][molecule_density].value));
+        if (std::abs(at.layer.phi) >= layer_middle) return;
+        raise(diagnostics.thickness_error_max, thickness_error);
+        raise(difference, std::abs(psi - x[2][distance].value));
+    });
     const MPI_Comm communicator = space.dofs.get_communicator();
     sum_over_processes({&integrals.area, &integrals.molecules, &integrals.stretching, &diagnostics.bending_energy,
                         &diagnostics.viscous_dissipation, &diagnostics.mobility_dissipation, &diagnostics.tension_power,
@@ -129,41 +156,26 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
 
 std::vector<double> molecules_of(const Space& space, const StepNumbers& step, const std::vector<Vector>& solutions) {
     const dealii::QGauss<2> quadrature(gauss_points(step.numerics));
-    ComponentField psi(space, distance, quadrature), c(space, molecule_density, quadrature);
     std::vector<double> sums(solutions.size());
-    for (const auto& cell : space.dofs.active_cell_iterators()) {
-        if (!cell->is_locally_owned()) continue;
-        const CellBox box = cell_box(cell);
-        for (std::size_t j = 0; j < solutions.size(); ++j) {
-            const auto &position = psi.on(cell, box, solutions[j]), &density = c.on(cell, box, solutions[j]);
-            for (unsigned int q = 0; q < quadrature.size(); ++q) {
-                const auto& x = quadrature.point(q);
-                const double epsilon = step.thickness_at(cell->active_cell_index(), box, x[0], x[1]).value;
-                const double weight = membrane_density(layer_profile(position.value[q], epsilon), step.weight);
-                const double r = box.r0 + box.hr * x[0];
-                sums[j] += two_pi * quadrature.weight(q) * box.hr * box.hz * r * weight * density.value[q];
-            }
-        }
-    }
+    for (std::size_t j = 0; j < solutions.size(); ++j)
+        for_each_point(space, step, quadrature, {{&space, &solutions[j], {distance, molecule_density}}},
+                       [&](const CellPoint& at, const auto& x) {
+                           const auto layer = layer_profile(x[0][distance].value, at.thickness.value);
+                           sums[j] += at.measure * delta_Gamma(layer, step.weight) * x[0][molecule_density].value;
+                       });
     dealii::Utilities::MPI::sum(sums, space.dofs.get_communicator(), sums);
     return sums;
 }
 
 double layer_increment(const Space& space, const StepNumbers& step, const Vector& increment, const Vector& solution) {
     const dealii::QGauss<2> quadrature(space.degrees[distance] + 1);
-    ComponentField change(space, distance, quadrature), psi(space, distance, quadrature);
     double largest = 0;
-    for (const auto& cell : space.dofs.active_cell_iterators()) {
-        if (!cell->is_locally_owned()) continue;
-        const CellBox box = cell_box(cell);
-        const auto &present = psi.on(cell, box, solution), &d = change.on(cell, box, increment);
-        for (unsigned int q = 0; q < quadrature.size(); ++q) {
-            const auto& x = quadrature.point(q);
-            const double epsilon = step.thickness_at(cell->active_cell_index(), box, x[0], x[1]).value;
-            if (std::abs(equilibrium_profile(present.value[q], epsilon)) <= layer_edge)
-                largest = std::max(largest, std::abs(d.value[q]) * step.numerics.epsilon / epsilon);
-        }
-    }
+    for_each_point(space, step, quadrature, {{&space, &solution, {distance}}, {&space, &increment, {distance}}},
+                   [&](const CellPoint& at, const auto& x) {
+                       const double epsilon = at.thickness.value;
+                       if (std::abs(equilibrium_profile(x[0][distance].value, epsilon)) <= layer_edge)
+                           raise(largest, std::abs(x[1][distance].value) * step.numerics.epsilon / epsilon);
+                   });
     return dealii::Utilities::MPI::max(largest, space.dofs.get_communicator());
 }
 
@@ -173,22 +185,14 @@ Vector presence(const Space& space, const StepNumbers& step, const Vector& solut
     std::vector<dealii::types::global_dof_index> indices(space.element.n_dofs_per_cell());
     for (unsigned int field = 0; field < n_fields; ++field) {
         if (lives_in_fluid(field)) continue;
-        const auto points = nodes(space.degrees[field]);
-        ComponentField psi(space, distance, points);
-        for (const auto& cell : space.dofs.active_cell_iterators()) {
-            if (!cell->is_locally_owned()) continue;
-            const CellBox box = cell_box(cell);
-            const auto& there = psi.on(cell, box, solution);
-            cell->get_dof_indices(indices);
-            for (unsigned int i = 0; i < points.size(); ++i) {
-                const auto unknown = indices[space.local[field][i]];
-                if (!space.owned.is_element(unknown)) continue;
-                const auto& x = points.point(i);
-                const double epsilon = step.thickness_at(cell->active_cell_index(), box, x[0], x[1]).value;
-                const double well = layer_profile(there.value[i], epsilon).squared_well;
-                out(unknown) = kept_by_cut(well * well, hardly_present * hardly_present);
-            }
-        }
+        for_each_point(space, step, nodes(space.degrees[field]), {{&space, &solution, {distance}}},
+                       [&](const CellPoint& at, const auto& x) {
+                           if (at.q == 0) at.cell->get_dof_indices(indices);
+                           const auto unknown = indices[space.local[field][at.q]];
+                           if (!space.owned.is_element(unknown)) return;
+                           const double well = layer_profile(x[0][distance].value, at.thickness.value).well;
+                           out(unknown) = kept_by_cut(well * well, hardly_present * hardly_present);
+                       });
     }
     return out;
 }

@@ -23,7 +23,7 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
 SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy, const StepNumbers& step,
                                   const Vector& solution);
 
-/// ∫δ_m c alone [nm²] of each solution, a small part of the cost of measuring them; collective.
+/// ∫δ_Γ c alone [nm²] of each solution, a small part of the cost of measuring them; collective.
 std::vector<double> molecules_of(const Space& space, const StepNumbers& step, const std::vector<Vector>& solutions);
 
 /// max |increment of ψ| on |φ| < 0.9 in units of ε, times phase_field.epsilon [nm]; collective.

@@ -5,6 +5,7 @@
 
 #include "phasefield/layer/boundary_flux.h"
 #include "phasefield/schemes/production/assembly.h"
+#include "phasefield/schemes/production/cell_points.h"
 
 namespace endoflow::phasefield::production {
 
@@ -30,7 +31,7 @@ void RimTension::on_side(const Cell& cell, const Vector& solution, const Visit& 
     const auto& psi = psi_.on(cell, box, solution);
     for (unsigned int q = 0; q < quadrature_.size(); ++q) {
         const double epsilon = step_->thickness_at(cell->active_cell_index(), box, 1, quadrature_.point(q)[1]).value;
-        const double density = membrane_density(layer_profile(psi.value[q], epsilon), step_->weight);
+        const double density = delta_Gamma(layer_profile(psi.value[q], epsilon), step_->weight);
         visit(q, quadrature_.weight(q) * box.hz * (box.r0 + box.hr) * sigma * density);
     }
 }
@@ -50,28 +51,22 @@ double RimTension::power(const Cell& cell, const Vector& solution) {
     return sum;
 }
 
-double load_power(const Space& space, const StepNumbers& step, const StepPast& history, const Vector& solution) {
+double load_power(const StepProblem& problem, const Vector& solution) {
+    const auto& [space, energy, step, history] = problem;
     if (step.loads.none()) return 0;
     const dealii::QGauss<2> quadrature(gauss_points(step.numerics));
-    ComponentField level(space, distance, quadrature), radial(space, velocity_r, quadrature),
-        axial(space, velocity_z, quadrature);
-    RimTension rim(space, step);
     double sum = 0;
-    for (const auto& cell : space.dofs.active_cell_iterators()) {
-        if (!cell->is_locally_owned()) continue;
-        const CellBox box = cell_box(cell);
-        const auto &psi = level.on(cell, box, solution), &u_r = radial.on(cell, box, solution),
-                   &u_z = axial.on(cell, box, solution);
-        const auto& past = history.points.at(cell->active_cell_index());
-        for (unsigned int q = 0; q < quadrature.size(); ++q) {
-            const double r = box.r0 + box.hr * quadrature.point(q)[0];
-            const double density = membrane_density(layer_profile(psi.value[q], past[q].thickness.value), step.weight);
-            const double pushed = -step.loads.pressure * (psi.r[q] * u_r.value[q] + psi.z[q] * u_z.value[q]);
-            sum += two_pi * quadrature.weight(q) * box.hr * box.hz * r * density *
-                   (pushed + past[q].pole_force * u_z.value[q]);
-        }
-        sum += rim.power(cell, solution);
-    }
+    for_each_point(space, step, quadrature, {{&space, &solution, {velocity_r, velocity_z, distance}}},
+                   [&](const CellPoint& at, const auto& fields) {
+                       const Fields<double>& x = fields.front();
+                       const PointPast& past = history.points.at(at.cell->active_cell_index())[at.q];
+                       const auto layer = layer_profile(x[distance].value, at.thickness.value);
+                       const double u_r = x[velocity_r].value, u_z = x[velocity_z].value;
+                       const double pushed = -step.loads.pressure * (x[distance].r * u_r + x[distance].z * u_z);
+                       sum += at.measure * delta_Gamma(layer, step.weight) * (pushed + past.pole_force * u_z);
+                   });
+    RimTension rim(space, step);
+    for_each_cell(space, [&](const Cell& cell, const CellBox& /*box*/) { sum += rim.power(cell, solution); });
     return dealii::Utilities::MPI::sum(sum, space.dofs.get_communicator());
 }
 

@@ -3,16 +3,15 @@
 #include <deal.II/base/quadrature.h>
 
 #include "phasefield/fem/component_field.h"
+#include "phasefield/schemes/production/cell_points.h"
 #include "phasefield/schemes/production/past.h"
 
 namespace endoflow::phasefield::production {
 
-/// The rim tension σ: ∮ δ_m σ v_r dA where the membrane leaves the box at r = R, flat. Without it λ = 0 there is
+/// The rim tension σ: ∮ δ_Γ σ v_r dA where the membrane leaves the box at r = R, flat. Without it λ = 0 there is
 /// natural, with it λ = σ.
 class RimTension {
   public:
-    using Cell = dealii::DoFHandler<2>::active_cell_iterator;
-
     RimTension(const Space& space, const StepNumbers& step);
 
     /// Adds the force on the test functions of a cell to its right-hand side, over 2π.
@@ -34,6 +33,6 @@ class RimTension {
 };
 
 /// Power of rim tension, pressure and pole force at the end of a step [pN nm/µs]; collective.
-double load_power(const Space& space, const StepNumbers& step, const StepPast& history, const Vector& solution);
+double load_power(const StepProblem& problem, const Vector& solution);
 
 }  // namespace endoflow::phasefield::production

@@ -16,12 +16,12 @@ namespace endoflow::phasefield::production {
 enum Field : unsigned int {
     velocity_r,
     velocity_z,
-    pressure,            // p without the layer's own part δ q [pN/nm²]
-    pressure_layer,      // q [pN/nm]
+    pressure,            // p without the layer's own part δ p_Γ [pN/nm²]
+    pressure_layer,      // p_Γ [pN/nm]
     tension,             // λ [pN/nm]
     distance,            // ψ [nm], φ = tanh(ψ/(√2 ε))
-    normal_force,        // G, the variation of the energy per area, δ G = δE/δψ [pN/nm²]
-    moment,              // b = β K [pN]
+    normal_force,        // G, the variation of the energy per area, δ_Γ G = δE/δψ [pN/nm²]
+    moment,              // m = −∂e/∂κ, β (C − κ) of bending alone [pN]
     molecule_density,    // c
     molecule_potential,  // μ
     membrane_stretch,    // s

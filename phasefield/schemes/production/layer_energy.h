@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "phasefield/schemes/production/layer_weights.h"
@@ -10,34 +11,37 @@
 namespace endoflow::phasefield::production {
 
 inline constexpr double moment_floor = constant("moment_floor");
-inline constexpr double moment_alignment = constant("moment_alignment");
-inline constexpr double potential_alignment = constant("potential_alignment");
+inline constexpr double alignment = constant("alignment");
+inline constexpr double strong_alignment = constant("strong_alignment");
 inline constexpr double steepest_sheets = constant("steepest_sheets");
 
 /// The membrane's energy as the layer carries it, with what its equations ask for at every point.
 struct LayerEnergy {
     /// An energy without a part of the coat's edge.
-    explicit LayerEnergy(const MembraneEnergy& whole) : LayerEnergy(whole, whole, {}) {}
+    LayerEnergy(const MembraneEnergy& whole, bool knows_gradient) : LayerEnergy(whole, whole, {}, knows_gradient) {}
     explicit LayerEnergy(const Parameters& parameters)
-        : LayerEnergy(membrane_energy(parameters), bending_energy(parameters), line_energy(parameters)) {}
+        : LayerEnergy(membrane_energy(parameters), bending_energy(parameters), line_energy(parameters),
+                      energetically_coupled(parameters.molecules)) {}
 
     MembraneEnergy density, bending, edge;  // E + E_c, and its parts
-    double bare_stiffness;                  // ∂²e/∂κ² of the flat membrane without molecules [pN nm]
+    double bare_stiffness;                  // β(0) = ∂²e/∂κ² of the flat membrane without molecules [pN nm]
     bool coupled;  // knows ∇_Γ c: then δ(E + E_c)/δc drives the molecules and the membrane
 
-    /// What compliance along the normal the last term of (D) has: D [nm²/(pN nm)].
-    [[nodiscard]] double compliance(double epsilon) const {
-        return moment_alignment * epsilon * epsilon / bare_stiffness;
+    /// D_m of (D) [nm²/(pN nm)].
+    template <class Thickness>
+    [[nodiscard]] Thickness compliance(const Thickness& epsilon) const {
+        return (alignment / bare_stiffness) * epsilon * epsilon;
     }
+    /// Continues m where δ_E is next to nothing.
     [[nodiscard]] double smoothing(double epsilon) const { return moment_floor * epsilon / bare_stiffness; }
 
   private:
-    LayerEnergy(MembraneEnergy whole, MembraneEnergy of_bending, MembraneEnergy of_edge)
+    LayerEnergy(MembraneEnergy whole, MembraneEnergy of_bending, MembraneEnergy of_edge, bool knows_gradient)
         : density(std::move(whole)),
           bending(std::move(of_bending)),
           edge(std::move(of_edge)),
           bare_stiffness(density.density(0, 0, 0).second[local::curvature][local::curvature]),
-          coupled(density.density(0.1, 0.4, 0.02).partial[local::squared_gradient] != 0) {}
+          coupled(knows_gradient) {}
 };
 
 /// c as the energy sees it: c itself on [0, 1], bent smoothly to stay within a twentieth of it outside. A sharp limit
@@ -47,87 +51,94 @@ Number limited_concentration(const Number& c) {
     constexpr double margin = constant("concentration_margin");
     const double value = value_of(c), edge = value < 0 ? 0 : 1;
     if (value >= 0 && value <= 1) return c;
-    const double t = std::tanh((value - edge) / margin);
-    return chain(c, edge + margin * t, 1 - t * t);
+    const double t = std::tanh((value - edge) / margin), slope = 1 - t * t;
+    return chain(c, edge + margin * t, slope, -2 / margin * t * slope);
 }
 
-/// The membrane's curvature around the axis as the layer's sheets have it, for the correction below.
+/// Where the energy of one of the layer's sheets is asked for.
 template <class Number>
-struct SheetCurvature {
-    Number scaled;        // y = ε k, k = −ψ_r/r, at most steepest_sheets [1]
-    Number slope;         // ∂y/∂ψ_r
-    Number by_thickness;  // ∂y/∂ε [1/nm]
+struct SheetPoint {
+    Number p, c, squared_gradient;  // p = −m [pN], c, |∂ₜc|² [1/nm²]
+    Number k;  // ε k, k = −∂_rψ/r the membrane's curvature around the axis, as sheets have it
 };
 
-/// At radius r [nm]. Where layers meet on the axis k has no bound; thinning keeps ε k below a tenth where it means
-/// anything.
 template <class Number>
-SheetCurvature<Number> sheet_curvature(const Number& psi_r, double r, double epsilon) {
-    const Number y = (-epsilon / r) * psi_r;
-    const ValueAndDerivatives limited = bounded(value_of(y), steepest_sheets);
-    const Number slope = chain(y, limited.first, limited.second);
-    return {chain(y, limited.value, limited.first), (-epsilon / r) * slope, (1 / epsilon) * (slope * y)};
+SheetPoint<double> values_of(const SheetPoint<Number>& x) {
+    return {value_of(x.p), value_of(x.c), value_of(x.squared_gradient), value_of(x.k)};
 }
 
-/// The membrane's elastic state as one sheet of the layer sees it.
-template <class Number>
-struct SheetState {
-    ElasticState<Number> elastic;  // of e* below: κ = ∂e*/∂p, e = p κ − e*, and minus its other derivatives
-    Number conjugate;              // e* of the layer [pN/nm]
-    Number by_curvature;           // ∂e*/∂y
-    Number by_thickness;           // ∂e*/∂ε at given y
-    Number by_concentration;       // ∂e/∂c of the membrane, which the fluid feels [pN/nm]
-};
+/// At radius r, where c changes by `along` along the sheet [1/nm]. A double well that is part of the energy holds c by
+/// itself, and must not be bent. Where layers meet on the axis k has no bound; thinning keeps ε k below a tenth where
+/// it means anything.
+template <class Number, class Thickness>
+SheetPoint<Number> sheet_point(const LayerEnergy& energy, const Number& m, const Number& c, const Number& along,
+                               const Number& psi_r, double r, const Thickness& epsilon) {
+    const Number k = (-1 / r) * (epsilon * psi_r);
+    const ValueAndDerivatives bound = bounded(value_of(k), steepest_sheets);
+    return {-1.0 * m, energy.coupled ? c : limited_concentration(c), energy.coupled ? along * along : Number(0.0),
+            chain(k, bound.value, bound.first, bound.second)};
+}
 
-/// Where the moment is b and t·∇c is `slope`, t the tangent: with N = −n the layer's moment is p = −b = ∂e/∂κ. A double
-/// well that is part of the energy holds c by itself, and must not be bent.
+/// e*_ε, the Legendre transform of the energy per area as the layer has it:
+///
+///   e*_ε(p, c) = e*(q, c) + M₂ k² e*(p, c),   q = p − M₂ k e*(p, c).
 ///
 /// Sheets at the distance ψ have the area (1 + κ₁ψ)(1 + κ₂ψ), so that with e* itself the layer's energy per area would
-/// be e + M₂ κ₁κ₂ (e − κ ∂e/∂κ), M₂ = ∫ ψ² δ_E dψ. It is e up to ε⁴ with
-///
-///   e*(q) + M₂ k² e*(p),   q = p − M₂ k e*(p),   k = κ₂,
-///
-/// which is e* (1 − M₂ κ₁κ₂) because ∂e*/∂p = κ₁ + κ₂. The moment of the membrane is q.
-template <class Number>
-SheetState<Number> sheet_state(const LayerEnergy& energy, const Number& b, const Number& c, const Number& slope,
-                               const Number& y, double epsilon) {
-    const Number held = energy.coupled ? c : limited_concentration(c);
-    const Number squared = energy.coupled ? slope * slope : Number(0.0);
-    const Number p = -1.0 * b;
-    const ElasticState<Number> plain = elastic_state<Number>(energy.density, p, held, squared);
-    const Number plain_conjugate = p * plain.curvature - plain.density;
-    const double m2 = energy_second_moment, m = m2 * epsilon;
-    const Number shift = m * y, square = m2 * y * y;
-    const Number q = p - shift * plain_conjugate;
-    ElasticState<Number> state = elastic_state<Number>(energy.density, q, held, squared);
-    const Number curvature = state.curvature, by_concentration = state.by_concentration;
-    const Number conjugate = q * curvature - state.density + square * plain_conjugate;
-    // −∂q/∂(e* of p) times κ of q, less what k² adds: of every derivative of e*(p)
-    const Number part = shift * curvature - square;
-    state.curvature = curvature - part * plain.curvature;
-    state.by_concentration = by_concentration - part * plain.by_concentration;
-    state.by_squared_gradient = state.by_squared_gradient - part * plain.by_squared_gradient;
-    state.density = p * state.curvature - conjugate;
-    return {state, conjugate, plain_conjugate * (2.0 * m2 * y - m * curvature), -m2 * (y * curvature * plain_conjugate),
-            by_concentration};
+/// be e + M₂ κ₁κ₂ (e − κ ∂e/∂κ). With e*_ε, which is e* (1 − M₂ κ₁κ₂) because ∂e*/∂p = κ₁ + κ₂ and k = κ₂, it is e up
+/// to ε⁴. The membrane's moment is q.
+class SheetEnergy {
+  public:
+    /// e* at the two moments of a point: what its derivatives of all kinds are made from.
+    SheetEnergy(const LayerEnergy& energy, const SheetPoint<double>& x, double epsilon)
+        : at_p_(energy.density.conjugate(x.p, x.c, x.squared_gradient)),
+          at_q_(energy.density.conjugate(x.p - shift(x, epsilon) * at_p_.value, x.c, x.squared_gradient,
+                                         at_p_.partial[local::moment])) {}
+
+    /// e*_ε [pN/nm] at the same point in any numbers.
+    template <class Number, class Thickness>
+    [[nodiscard]] Number conjugate(const SheetPoint<Number>& x, const Thickness& epsilon) const {
+        const Number at_p = compose(at_p_, std::array{x.p, x.c, x.squared_gradient});
+        const Number q = x.p - shift(x, epsilon) * at_p;
+        return compose(at_q_, std::array{q, x.c, x.squared_gradient}) + energy_second_moment * x.k * x.k * at_p;
+    }
+    /// e_c = ∂e/∂c of the membrane [pN/nm].
+    template <class Number, class Thickness>
+    [[nodiscard]] Number by_concentration(const SheetPoint<Number>& x, const Thickness& epsilon) const {
+        const Number q = x.p - shift(x, epsilon) * compose(at_p_, std::array{x.p, x.c, x.squared_gradient});
+        return -1.0 * compose_partial(at_q_, local::concentration, std::array{q, x.c, x.squared_gradient});
+    }
+
+  private:
+    /// M₂ k
+    template <class Number, class Thickness>
+    [[nodiscard]] static Number shift(const SheetPoint<Number>& x, const Thickness& epsilon) {
+        return energy_second_moment * epsilon * x.k;
+    }
+
+    LocalJet at_p_, at_q_;
+};
+
+/// The membrane's elastic state as one sheet of the layer has it.
+struct SheetState {
+    double curvature;         // κ = ∂e*_ε/∂p [1/nm]
+    double density;           // p κ − e*_ε [pN/nm]
+    double by_concentration;  // e_c [pN/nm]
+};
+inline SheetState sheet_state(const LayerEnergy& energy, const SheetPoint<double>& x, double epsilon) {
+    const SheetEnergy sheet(energy, x, epsilon);
+    const auto conjugate =
+        sheet.conjugate(SheetPoint<Dual<1>>{Dual<1>::variable(x.p, 0), x.c, x.squared_gradient, x.k}, epsilon);
+    const double curvature = conjugate.partial[0];
+    return {curvature, x.p * curvature - conjugate.value, sheet.by_concentration(x, epsilon)};
 }
 
-/// ∂e/∂c of bending alone [pN/nm], which molecules feel that come and go.
+/// ∂e/∂c of bending alone [pN/nm], which molecules feel that come and go, where that of all is e_c.
 template <class Number>
-Number bending_by_concentration(const LayerEnergy& energy, const SheetState<Number>& sheet, const Number& c) {
-    if (!energy.coupled) return sheet.by_concentration;
-    const Number& curvature = sheet.elastic.curvature;
+Number bending_by_concentration(const LayerEnergy& energy, const Number& curvature, const Number& e_c,
+                                const Number& c) {
+    if (!energy.coupled) return e_c;
     const LocalJet jet = energy.bending.density(value_of(curvature), value_of(c), 0);
     return compose_partial(jet, local::concentration, std::array<Number, local::count>{curvature, c, 0.0});
-}
-
-/// The energy (D) per volume where it is stationary over b [pN/nm²].
-inline double energy_per_volume(const AtPoint<double>& b, const AtPoint<double>& psi,
-                                const ElasticState<double>& elastic, double weight, double epsilon,
-                                const LayerEnergy& energy) {
-    const double slope = psi.r * b.r + psi.z * b.z;
-    return weight * (elastic.density + 0.5 * energy.compliance(epsilon) * slope * slope) +
-           0.5 * energy.smoothing(epsilon) * (b.r * b.r + b.z * b.z);
 }
 
 }  // namespace endoflow::phasefield::production

@@ -41,12 +41,19 @@ struct ThicknessCurve {
     /// Of a membrane that moves with its velocity for `time` [µs].
     ThicknessCurve(const MembraneCurve& curve, double time, const Parameters& parameters);
 
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive("thickness_r", r);
+        archive("thickness_z", z);
+        archive("thickness_epsilon", epsilon);
+    }
+
     /// At any point [nm]; only where the curve is not empty.
     [[nodiscard]] double at(double r, double z) const;
 };
 
 /// ε within the cells of this process: bilinear between their corners, so that it is nowhere beyond what it is there,
-/// not even where the closest point jumps, and continuous: a jump would be a line of force, as large as the moment b.
+/// not even where the closest point jumps, and continuous: a jump would be a line of force, as large as the moment m.
 class CellThickness {
   public:
     CellThickness(ThicknessCurve curve, const dealii::Triangulation<2>& mesh);

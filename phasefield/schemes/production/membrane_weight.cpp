@@ -14,7 +14,7 @@ namespace endoflow::phasefield::production {
 namespace {
 
 constexpr double smallest_square = constant("smallest_square");
-constexpr double monotonic_square = constant("monotonic_square");
+constexpr double monotonic_square = -1.25;  // δ_Γ = (1 − b/5 + b φ²) δ ≥ 0 from here on
 constexpr double equal_viscosities = constant("equal_viscosities");
 constexpr double smallest_fluidity = constant("smallest_fluidity");
 constexpr double largest_ratio = constant("largest_ratio");
@@ -26,7 +26,7 @@ MembraneWeight weight_of(double square, double fourth) {
     return {1 - square / 5 - 3 * fourth / 35, square, fourth};
 }
 
-/// max H_m − ½ of a weight without φ⁴.
+/// max H_Γ − ½ of a weight without φ⁴.
 double overshoot(double square) {
     if (square >= monotonic_square) return 0;
     const MembraneWeight w = weight_of(square, 0);
@@ -77,7 +77,7 @@ MembraneWeight without_excess(const FluidParameters& fluid, MembraneWeight weigh
 /// times as large.
 double lowest_viscosity(const MembraneWeight& weight, double t, double ratio) {
     constexpr int points = 1000;
-    double largest = 0.5;  // of H_m
+    double largest = 0.5;  // of H_Γ
     for (int i = 1; i < points; ++i) {
         const double phi = static_cast<double>(i) / points;
         largest = std::max(largest, t * membrane_indicator(phi, weight) + (1 - t) * membrane_indicator(phi, {}));

@@ -11,15 +11,12 @@
 #include "phasefield/contour/contour.h"
 #include "phasefield/fem/scalar_basis.h"
 #include "phasefield/schemes/production/assembly.h"
+#include "phasefield/schemes/production/cell_points.h"
 #include "phasefield/schemes/production/constants.h"
 
 namespace endoflow::phasefield::production {
 
 namespace {
-
-constexpr double last_normal_below = constant("last_normal_below");
-constexpr double last_molecules_normal_below = constant("last_molecules_normal_below");
-constexpr double loaded_layer = constant("loaded_layer");
 
 /// Σ_j a_j y(t_j) and the predicted normals at the quadrature points of one cell.
 class PastFields {
@@ -37,8 +34,7 @@ class PastFields {
             if (!bases_.contains(degree)) bases_.emplace(degree, ScalarBasis(degree, quadrature));
     }
 
-    void evaluate_cell(const dealii::DoFHandler<2>::active_cell_iterator& cell, const CellBox& box,
-                       std::vector<PointPast>& points) {
+    void evaluate_cell(const Cell& cell, const CellBox& box, std::vector<PointPast>& points) {
         for (std::size_t q = 0; q < points.size(); ++q) {
             const auto& x = quadrature_->point(static_cast<unsigned int>(q));
             points[q].thickness = step_->thickness_at(cell->active_cell_index(), box, x[0], x[1]);
@@ -58,26 +54,26 @@ class PastFields {
         cell->get_dof_values(*history_->extrapolated, values_);
         field(distance, box, predicted_, Derivatives::second);
         for (std::size_t q = 0; q < points.size(); ++q) {
-            const double well = layer_profile(psi_.value[q], points[q].thickness.value).squared_well;
+            const double well = layer_profile(psi_.value[q], points[q].thickness.value).well;
             const auto& x = quadrature_->point(static_cast<unsigned int>(q));
             const auto last = membrane_.at(box.r0 + box.hr * x[0], box.z0 + box.hz * x[1]);
             const auto normal = [&](double r, double z, double last_below) {
                 const double w = well / (well + last_below);
                 return direction<double>(w * r + (1 - w) * last.r, w * z + (1 - w) * last.z);
             };
-            if (step_->pole_force && well > loaded_layer)
+            if (step_->pole_force && well > weight_cut * weight_cut)
                 points[q].pole_force = step_->pole_force->at(box.r0 + box.hr * x[0], box.z0 + box.hz * x[1]);
             const double around = predicted_.r[q] / (box.r0 + box.hr * x[0]);
             points[q].bulk = supply[q];
-            points[q].normal = normal(predicted_.r[q], predicted_.z[q], last_normal_below);
+            points[q].normal = normal(predicted_.r[q], predicted_.z[q], tail_cut);
             const auto change =
                 gradient_change(points[q].normal, predicted_.rr[q], predicted_.rz[q], predicted_.zz[q], around);
             points[q].arc = sheet_arc(predicted_.value[q], around, change.laplacian);
             points[q].metric = sheet_metric(predicted_.value[q], around, change.laplacian);
             points[q].even = evenness(change, points[q].thickness.value);
-            points[q].own = well / (well + last_normal_below);
+            points[q].own = well / (well + tail_cut);
             points[q].closest = {last.r, last.z};
-            points[q].molecules_normal = normal(ahead_r_[q], ahead_z_[q], last_molecules_normal_below);
+            points[q].molecules_normal = normal(ahead_r_[q], ahead_z_[q], weight_cut);
         }
     }
 
@@ -95,9 +91,9 @@ class PastFields {
         field(velocity_z, box, u_z_);
         for (std::size_t q = 0; q < points.size(); ++q) {
             const auto layer = layer_profile(psi_.value[q], points[q].thickness.value);
-            const double density = membrane_density(layer, step_->weight);
+            const double density = delta_Gamma(layer, step_->weight);
             points[q].distance += weight * psi_.value[q];
-            points[q].indicator += weight * cut_indicator(layer.phi, step_->weight);
+            points[q].indicator += weight * H_Gamma(layer.phi, step_->weight);
             points[q].slope_r += weight * psi_.r[q];
             points[q].slope_z += weight * psi_.z[q];
             ahead_r_[q] += ahead * psi_.r[q];
@@ -132,12 +128,11 @@ StepPast::StepPast(const Space& space, const StepNumbers& step, const std::vecto
       points(space.dofs.get_triangulation().n_active_cells()) {
     const dealii::QGauss<2> quadrature(gauss_points(step.numerics));
     PastFields fields(space, quadrature, step, *this);
-    for (const auto& cell : space.dofs.active_cell_iterators()) {
-        if (!cell->is_locally_owned()) continue;
+    for_each_cell(space, [&](const Cell& cell, const CellBox& box) {
         auto& of_cell = points[cell->active_cell_index()];
         of_cell.resize(quadrature.size());
-        fields.evaluate_cell(cell, cell_box(cell), of_cell);
-    }
+        fields.evaluate_cell(cell, box, of_cell);
+    });
 }
 
 }  // namespace endoflow::phasefield::production

@@ -29,4 +29,12 @@ struct StepPast {
     std::function<PointValues(double, double)> manufactured;
 };
 
+/// The equations of one step.
+struct StepProblem {
+    const Space& space;
+    const LayerEnergy& energy;
+    const StepNumbers& numbers;
+    const StepPast& past;
+};
+
 }  // namespace endoflow::phasefield::production

@@ -14,8 +14,9 @@ double inverse_stretch(double curvature, double psi) {
 }  // namespace
 
 ValueAndDerivatives bounded(double x, double bound) {
-    const double relative = x / bound, seventh = std::pow(relative, 7), eighth = relative * seventh;
-    const double factor = std::pow(1 + eighth, -0.125), first = factor / (1 + eighth);
+    const double relative = x / bound, square = relative * relative, fourth = square * square;
+    const double seventh = relative * square * fourth, eighth = fourth * fourth;
+    const double factor = 1 / std::sqrt(std::sqrt(std::sqrt(1 + eighth))), first = factor / (1 + eighth);
     return {factor * x, first, -9 * first * seventh / ((1 + eighth) * bound)};
 }
 

@@ -5,29 +5,41 @@
 #include "phasefield/layer/profile.h"
 #include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/fields.h"
+#include "phasefield/schemes/production/layer_thickness.h"
 #include "phasefield/schemes/production/layer_weights.h"
-#include "phasefield/schemes/production/step_numbers.h"
 #include "shared/model/bending_model.h"
 #include "shared/numerics/forward.h"
 
 namespace endoflow::phasefield::production {
 
-/// A unit vector; shorter where normals cross.
+/// A vector of the half plane.
 template <class Number>
-struct DirectionOf {
+struct PlaneVector {
     Number r{}, z{};
 };
-using Direction = DirectionOf<double>;
+using Direction = PlaneVector<double>;  // a unit vector; shorter where normals cross
+
+/// Of any two with components along r and z.
+template <class A, class B>
+auto dot(const A& a, const B& b) {
+    return a.r * b.r + a.z * b.z;
+}
+
+/// t·∇y, t = (−N_z, N_r).
+template <class Number, class Vector>
+Number along_sheet(const AtPoint<Number>& y, const Vector& N) {
+    return y.z * N.r - y.r * N.z;
+}
 
 /// What is known at a point besides the iterate: Σ_j a_j y(t_j) of the past for every quantity with a time derivative,
 /// and of the predicted ψ the normal, at which most alignment aims.
 struct PointPast {
     double distance = 0;    // of ψ
-    double indicator = 0;   // of ∫ δ_m dψ
-    double molecules = 0;   // of δ_m c
-    double stretching = 0;  // of δ_m s
+    double indicator = 0;   // of H_Γ
+    double molecules = 0;   // of δ_Γ c
+    double stretching = 0;  // of δ_Γ s
     double velocity_r = 0, velocity_z = 0;
-    Direction normal;                 // n = ∇ψ/|∇ψ|; far from the membrane that of its closest point
+    Direction normal;                 // N = ∇ψ/|∇ψ|; far from the membrane that of its closest point
     Direction molecules_normal;       // the same with the error of BDF, for c
     double own = 1;                   // part of ψ's gradient in its own normal, the rest is the closest point's
     Direction closest;                // normal of the membrane's closest point
@@ -39,7 +51,7 @@ struct PointPast {
     double bulk = 1;                  // c_b/c_∞ of the fluid that molecules come from
 };
 
-/// What the equations need of ψ's second derivatives [1/nm]: n·∇∇ψ with ψ's own normal, how ∇ψ changes along the
+/// What the equations need of ψ's second derivatives [1/nm]: N·∇∇ψ with ψ's own normal, how ∇ψ changes along the
 /// normal, 0 where ψ is a distance, and Δψ.
 template <class Number>
 struct GradientChange {
@@ -49,7 +61,7 @@ struct GradientChange {
 
 /// From ψ's second derivatives; `around` is ψ_r/r.
 template <class Number>
-GradientChange<Number> gradient_change(const DirectionOf<Number>& n, const Number& rr, const Number& rz,
+GradientChange<Number> gradient_change(const PlaneVector<Number>& n, const Number& rr, const Number& rz,
                                        const Number& zz, const Number& around) {
     return {n.r * rr + n.z * rz, n.r * rz + n.z * zz, rr + zz + around};
 }
@@ -76,19 +88,16 @@ Number evenness(const GradientChange<Number>& change, double epsilon) {
 
 inline constexpr double surface_floor = constant("surface_floor");
 inline constexpr double gradient_floor = constant("gradient_floor");
-inline constexpr double force_alignment = constant("force_alignment");
-inline constexpr double step_alignment = constant("step_alignment");
-inline constexpr double alignment_floor = constant("alignment_floor");
 
 template <class Number>
 Number inverse_root(const Number& x) {
-    const double f = 1 / std::sqrt(value_of(x));
-    return chain(x, f, -0.5 * f / value_of(x));
+    const double value = value_of(x), f = 1 / std::sqrt(value);
+    return chain(x, f, -0.5 * f / value, 0.75 * f / (value * value));
 }
 
 /// Along (r, z), shorter where that is below shortest_gradient.
 template <class Number>
-DirectionOf<Number> direction(const Number& r, const Number& z) {
+PlaneVector<Number> direction(const Number& r, const Number& z) {
     constexpr double shortest = constant("shortest_gradient");
     const Number square = r * r + z * z;
     if (value_of(square) < shortest * shortest) return {(1 / shortest) * r, (1 / shortest) * z};
@@ -99,20 +108,23 @@ DirectionOf<Number> direction(const Number& r, const Number& z) {
 /// ψ's own normal, at which the alignment of G aims: a predicted one, turned by as little as a step's error, shifts the
 /// force, some 10 pN/nm, along the membrane, which follows within nanoseconds, and the next prediction with it.
 template <class Number>
-DirectionOf<Number> own_normal(const AtPoint<Number>& psi, const PointPast& past) {
+PlaneVector<Number> own_normal(const AtPoint<Number>& psi, const PointPast& past) {
     const double rest = 1 - past.own;
     return direction<Number>(past.own * psi.r + rest * past.closest.r, past.own * psi.z + rest * past.closest.z);
 }
 
-/// g = ε ∇(ψ/ε) = ∇ψ − (ψ/ε) ∇ε, normal to the layer's sheets of constant ψ/ε.
+/// N_ε = g/|g|, normal to the layer's sheets of constant ψ/ε: g = ε ∇(ψ/ε) = ∇ψ − (ψ/ε) ∇ε.
 template <class Number>
-struct SheetGradient {
-    Number r, z;
+struct SheetNormal {
+    PlaneVector<Number> N_epsilon;
+    Number inverse_g;  // 1/|g|
 };
 template <class Number>
-SheetGradient<Number> sheet_gradient(const AtPoint<Number>& psi, const PointThickness& thickness) {
+SheetNormal<Number> sheet_normal(const AtPoint<Number>& psi, const PointThickness& thickness) {
     const Number relative = (1 / thickness.value) * psi.value;
-    return {psi.r - thickness.r * relative, psi.z - thickness.z * relative};
+    const PlaneVector<Number> g{psi.r - thickness.r * relative, psi.z - thickness.z * relative};
+    const Number inverse = inverse_root(dot(g, g) + gradient_floor * gradient_floor);
+    return {{g.r * inverse, g.z * inverse}, inverse};
 }
 
 /// What the rows share.
@@ -120,73 +132,36 @@ template <class Number>
 struct PointGeometry {
     double epsilon;  // here [nm]
     LayerProfile<Number> layer;
-    Number surface, density;                                        // δ with a floor, δ_m [1/nm]
-    Number indicator;                                               // ∫ δ_m dψ
-    Number normal_r, normal_z, squared_gradient, inverse_gradient;  // of the sheets: g/|g|; |∇ψ|²; 1/|g|
+    ScaledEnergyWeight scaled_delta_E;
+    Number delta_floored, delta_Gamma, delta_E;  // δ with a floor, δ_Γ, δ_E [1/nm]
+    Number H_Gamma;
+    PlaneVector<Number> N_epsilon, own_normal;
+    Number inverse_g, squared_gradient;  // 1/|g|, |∇ψ|²
 };
-
-/// Of ψ where the layer has this thickness.
 template <class Number>
-PointGeometry<Number> point_geometry(const AtPoint<Number>& psi, const PointThickness& thickness,
-                                     const MembraneWeight& weight) {
-    const double epsilon = thickness.value;
-    const SheetGradient<Number> sheet = sheet_gradient(psi, thickness);
-    const Number inverse = inverse_root(sheet.r * sheet.r + sheet.z * sheet.z + gradient_floor * gradient_floor);
+PointGeometry<Number> point_geometry(const AtPoint<Number>& psi, const PointPast& past, const MembraneWeight& weight) {
+    const double epsilon = past.thickness.value;
     const auto layer = layer_profile(psi.value, epsilon);
-    const Number density = membrane_density(layer, weight);
+    const Number density = delta_Gamma(layer, weight);
+    const ScaledEnergyWeight scaled(value_of(layer.phi));
+    const auto [N_epsilon, inverse_g] = sheet_normal(psi, past.thickness);
     return {epsilon,
             layer,
+            scaled,
             layer.delta + surface_floor / epsilon,
             density,
-            chain(psi.value, cut_indicator(value_of(layer.phi), weight), value_of(density)),
-            sheet.r * inverse,
-            sheet.z * inverse,
-            psi.r * psi.r + psi.z * psi.z,
-            inverse};
-}
-
-/// The part of g along the normal, (n n + (1 − |n|²))·g: all of it where normals cross and n vanishes.
-template <class Normal, class Number>
-Number normal_part(const DirectionOf<Normal>& n, const Normal& n_own, const Number& own, const Normal& n_other,
-                   const Number& other) {
-    return (1.0 - n.r * n.r - n.z * n.z + n_own * n_own) * own + (n_own * n_other) * other;
-}
-
-/// D_n ∇·(δ n n·∇y): keeps y constant along the normal, of most fields a predicted one, so that the term is linear. For
-/// what belongs to one membrane D_n holds the evenness: where the layers of bud and plane meet, molecules would change
-/// over, and tension.
-template <class Normal, class Number>
-void add_alignment(const AtPoint<Number>& y, const DirectionOf<Normal>& n, const Number& diffusivity,
-                   AtPoint<Number>& row) {
-    row.r += diffusivity * normal_part(n, n.r, y.r, n.z, y.z);
-    row.z += diffusivity * normal_part(n, n.z, y.z, n.r, y.r);
-}
-
-/// D of G [nm²] times δ.
-template <class Number>
-Number force_diffusivity(const PointGeometry<Number>& p) {
-    return (force_alignment * p.epsilon * p.epsilon) * p.surface;
+            energy_weight(psi.value, epsilon, scaled).value,
+            chain(psi.value, H_Gamma(value_of(layer.phi), weight), value_of(density)),
+            N_epsilon,
+            own_normal(psi, past),
+            inverse_g,
+            dot(psi, psi)};
 }
 
 template <class Number>
-void add_diffusion(const AtPoint<Number>& y, const Number& diffusivity, AtPoint<Number>& row) {
-    row.r += diffusivity * y.r;
-    row.z += diffusivity * y.z;
-}
-
-/// Multipliers of conditions on the membrane are constant along the normal, and smooth far from the layer.
-template <class Number>
-void extend_multiplier(const AtPoint<Number>& y, const PointGeometry<Number>& p, const PointPast& past,
-                       double alignment, double leak, AtPoint<Number>& row) {
-    const Number phi2 = p.layer.phi * p.layer.phi;
-    add_alignment(y, past.normal, -alignment * past.even * (p.layer.squared_well + alignment_floor), row);
-    add_diffusion(y, -leak * (phi2 * phi2), row);
-}
-
-/// A diffusivity along the normal [nm²/µs] made fast within a step: δ_m is negative in the layer's tails, where without
-/// it y would grow.
-inline double within_a_step(double diffusivity, double epsilon, const StepNumbers& step) {
-    return diffusivity + step_alignment * epsilon * epsilon * step.rate;
+void add_flux(const PlaneVector<Number>& flux, AtPoint<Number>& row) {
+    row.r += flux.r;
+    row.z += flux.z;
 }
 
 }  // namespace endoflow::phasefield::production

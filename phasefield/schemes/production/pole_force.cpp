@@ -19,20 +19,4 @@ double PoleForce::at(double r, double z) const {
     return loads_.pole_force * loads_.force_share(at_closest_point(r_, z_, area_, r, z));
 }
 
-void PoleForce::save(const std::string& name, Checkpoint& checkpoint) const {
-    checkpoint.arrays[name + "_r"] = r_;
-    checkpoint.arrays[name + "_z"] = z_;
-    checkpoint.arrays[name + "_area"] = area_;
-}
-
-std::shared_ptr<const PoleForce> PoleForce::load(const Checkpoint& checkpoint, const std::string& name,
-                                                 const Loads& loads) {
-    if (!checkpoint.arrays.contains(name + "_r")) return nullptr;
-    auto force = std::shared_ptr<PoleForce>(new PoleForce(loads));
-    force->r_ = checkpoint.array(name + "_r");
-    force->z_ = checkpoint.array(name + "_z");
-    force->area_ = checkpoint.array(name + "_area");
-    return force;
-}
-
 }  // namespace endoflow::phasefield::production

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
+
 #include "phasefield/fem/mesh.h"
 #include "phasefield/schemes/interface/scheme.h"
 #include "phasefield/schemes/production/bulk_transport.h"
 #include "phasefield/schemes/production/constants.h"
-#include "phasefield/schemes/production/diagnostics.h"
+#include "phasefield/schemes/production/scheme_state.h"
 #include "phasefield/schemes/production/step_solver.h"
 
 namespace endoflow::phasefield::production {
@@ -26,8 +28,10 @@ class ProductionScheme : public Scheme {
     void keep(double time, double tau, const StepOutcome& outcome) override;
     void reject(double time, double tau) override;
     void follow(const MembraneCurve& curve) override;
-    [[nodiscard]] LayerIntegrals integrate() const override { return integrals_; }
-    [[nodiscard]] Contour contour_at(double time) const override { return contour(polynomial(time, times_.size())); }
+    [[nodiscard]] LayerIntegrals integrate() const override { return state_.integrals; }
+    [[nodiscard]] Contour contour_at(double time) const override {
+        return contour(polynomial(state_.solutions, time, state_.times.size()));
+    }
     void write_fields(const std::filesystem::path& run_directory, std::vector<double>& times,
                       double time) const override;
     [[nodiscard]] double thickness_at(double r, double z) const override;
@@ -36,46 +40,35 @@ class ProductionScheme : public Scheme {
     [[nodiscard]] std::vector<NamedNumber> constants() const override;
     [[nodiscard]] std::vector<NamedNumber> solver_counts() const override;
     /// So far.
-    [[nodiscard]] unsigned int factorisations() const { return solver_.counts().factorisations; }
+    [[nodiscard]] unsigned int factorisations() const { return solver_.factors().made(); }
 
   private:
     void distribute();
+    /// The mesh has changed, and the space with it.
     void renew();
     bool adapt_once(const MembraneCurve& curve);
-    /// That of the membrane at the end of the step; the molecules keep their integrals.
-    void foresee_thickness(double tau);
-    /// Each solution's to its own: with one factor for all, what is left of the others' errors would be a source.
-    void restore_molecules();
-    /// The polynomial through the newest `count` solutions.
-    [[nodiscard]] Vector polynomial(double time, std::size_t count) const;
-    [[nodiscard]] std::size_t order() const;
+    /// The state's solutions, each with its own ∫ c dA where the layer has a step's thickness: with one factor for all,
+    /// what is left of the others' errors would be a source.
+    [[nodiscard]] std::vector<Vector> with_their_molecules(const StepNumbers& step) const;
+    /// The polynomial in time through the newest `count` of the state's times, of these vectors.
+    [[nodiscard]] Vector polynomial(const std::vector<Vector>& solutions, double time, std::size_t count) const;
     [[nodiscard]] Contour contour(const Vector& solution) const;
-    /// Measures the newest solution: renews integrals_ and returns the rest.
+    /// Numbers of the state, where no step is made.
+    [[nodiscard]] StepNumbers at_rest() const;
+    /// Those of a step, with what is foreseen for its end.
+    [[nodiscard]] StepNumbers foreseen(double tau, const BdfCoefficients& bdf, double end) const;
+    /// Measures the newest solution into the state and returns the rest.
     StepOutcome present();
 
     Parameters parameters_;
+    CaseNumbers case_;
     LayerEnergy energy_;
     std::unique_ptr<Mesh> mesh_;
     Space space_;
-    StepNumbers numbers_;
     StepSolver solver_;
     std::unique_ptr<BulkTransport> bulk_;  // none: it is never depleted
-    std::vector<Vector> solutions_;        // newest first
-    std::vector<double> times_;            // of them [µs]
-    std::vector<double> masses_;           // ∫ c dA of them [nm²]
-    LayerIntegrals integrals_{};
-    MembraneCurve membrane_;
-
-    Vector trial_;
-    LayerIntegrals trial_integrals_{};
-    double trial_factor_ = 1;  // by which the step may grow
-    double trial_motion_ = 0;  // of the layer
-    double trial_change_ = 0;  // of membrane and molecules in the step, over the errors that it may have
-
-    double nominal_;          // the next step [µs]
-    double speed_ = 0;        // of the membrane in the last step [nm/µs]
-    double moved_ = 0;        // of the layer, since the mesh was made: in units of ε, times phase_field.epsilon [nm]
-    double since_start_ = 0;  // steps taken
+    SchemeState state_;
+    std::optional<Trial> trial_;
 };
 
 }  // namespace endoflow::phasefield::production

@@ -8,7 +8,7 @@ namespace endoflow::phasefield::production {
 /// of constants.h, which have no unit, times the scales of the problem. So a problem in other units, or with all
 /// viscosities larger and all times longer by one factor, has the same solution.
 struct SchemeRates {
-    double profile_relaxation = 0;        // M at most [nm/µs]
+    double profile_relaxation = 0;        // M_p at most [nm/µs]
     double strain_relaxation = 0;         // ζ [1/µs]
     double crowding = 0;                  // max |c ∂e/∂c| of the flat membrane over ν₁ + ν₂ [nm/µs]
     double stretching_alignment = 0;      // of s [nm²/µs]
@@ -16,9 +16,9 @@ struct SchemeRates {
     double fast_membrane = 0;             // from where on its shear asks for all of that [nm/µs]
     double molecule_leak = 0;             // of c [nm/µs]
     double tension_alignment = 0;         // of λ [nm²/(pN µs)]
-    double tension_leak = 0;              // of λ and q [nm²/(pN µs)]
-    double layer_pressure_alignment = 0;  // of q [nm²/(pN µs)]
-    double pressure_leak = 0;             // ∇·u per q [nm/(pN µs)]
+    double tension_leak = 0;              // of λ and p_Γ [nm²/(pN µs)]
+    double layer_pressure_alignment = 0;  // of p_Γ [nm²/(pN µs)]
+    double pressure_leak = 0;             // ∇·u per p_Γ [nm/(pN µs)]
     double divergence_penalty = 0;        // of ∇·u over ν, times the membrane's speed [nm/µs]
 };
 

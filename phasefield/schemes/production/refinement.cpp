@@ -8,6 +8,7 @@
 #include "phasefield/fem/flow_domain.h"
 #include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/layer_thickness.h"
+#include "phasefield/schemes/production/step_control.h"
 
 namespace endoflow::phasefield::production {
 
@@ -17,7 +18,6 @@ constexpr double edge_cells = constant("edge_cells");
 constexpr double edge_part = constant("edge_part");
 constexpr double fine_band = constant("fine_band");
 constexpr double neck_cells = constant("neck_cells");
-constexpr double motion_with_flow = constant("motion_with_flow");
 constexpr double motion_without_flow = constant("motion_without_flow");
 constexpr double cells_slack = constant("cells_slack");
 constexpr int most_neck_levels = count("most_neck_levels");
@@ -110,7 +110,7 @@ double edge_motion(const MembraneCurve& before, const MembraneCurve& after) {
 }
 
 double follow_after_motion(const Parameters& p) {
-    return (p.fluid.dynamics == Dynamics::flow ? motion_with_flow : motion_without_flow) * p.phase_field.epsilon;
+    return (p.fluid.dynamics == Dynamics::flow ? largest_motion : motion_without_flow) * p.phase_field.epsilon;
 }
 
 std::vector<RefinedBand> refined_bands(const MembraneCurve& curve, const Parameters& parameters) {

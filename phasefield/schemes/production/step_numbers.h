@@ -22,48 +22,48 @@ inline constexpr double relaxation_per_speed = constant("relaxation_per_speed");
 inline constexpr double slowest_alignment = constant("slowest_alignment");
 inline constexpr double most_penalty = constant("most_penalty");
 
-/// Numbers of one step.
-struct StepNumbers {
-    /// Of a case whose membrane has this weight; the rate is that of a step.
-    StepNumbers(const Parameters& p, const MembraneWeight& membrane, double a0 = 0)
-        : rate(a0),
-          numerics(p.phase_field),
+/// Numbers of a case, the same in all its steps.
+struct CaseNumbers {
+    explicit CaseNumbers(const Parameters& p)
+        : numerics(p.phase_field),
           fluid(p.fluid),
           normal_diffusivity(p.molecules.normal_diffusivity),
           transport(transport_law(p.molecules)),
           exchange(exchange_law(p.molecules)),
           loads(loads_of(p)),
-          weight(membrane),
+          weight(membrane_weight(p.fluid, p.phase_field.viscosity_mean)),
           rates(scheme_rates(p)),
-          profile_relaxation(rates.profile_relaxation),
           inextensible(p.membrane.inextensible) {}
 
-    /// Of a membrane as fast as this [nm/µs]; as long as nothing is known it is fast.
-    void move_at(double membrane_speed) {
-        speed = membrane_speed;
-        profile_relaxation = std::min(rates.profile_relaxation, relaxation_per_speed * speed);
-        molecules_alignment = std::clamp(speed / rates.fast_membrane, slowest_alignment, 1.0);
-        divergence_penalty = speed > 0 ? std::min(most_penalty, rates.divergence_penalty / speed) : most_penalty;
-    }
-
-    double rate;  // a₀ [1/µs]
     PhaseFieldParameters numerics;
     FluidParameters fluid;
     double normal_diffusivity;  // of c, at least [nm²/µs]
     TransportLaw transport;
     ExchangeLaw exchange;
     Loads loads;
-    MembraneWeight weight;
+    MembraneWeight weight;  // δ_Γ/δ
     SchemeRates rates;
-    double speed = std::numeric_limits<double>::max();  // of the membrane [nm/µs]
-    double profile_relaxation;                          // M of this step [nm/µs]
-    double molecules_alignment = 1;                     // part of least_normal_diffusivity
-    double divergence_penalty = 0;                      // of ∇·u over ν
-    bool inextensible;                                  // s is one but for what the tension leaves
-    double molecules = 0;                               // ∫ c dA, predicted [nm²]: what the pool has lost
-    std::shared_ptr<const CellThickness> thickness{};   // of the layer; none: uniform
-    std::shared_ptr<const PoleForce> pole_force{};      // none: zero
-    std::shared_ptr<const BulkSupply> supply{};         // none: the bulk is never depleted
+    bool inextensible;  // s is one but for what the tension leaves
+};
+
+/// Numbers and data of one step, a value that does not change while the step is solved for.
+struct StepNumbers : CaseNumbers {
+    /// Of a membrane as fast as this [nm/µs]; as long as nothing is known it is fast.
+    StepNumbers(const CaseNumbers& of_case, double a0, double speed = std::numeric_limits<double>::max())
+        : CaseNumbers(of_case),
+          rate(a0),
+          profile_relaxation(std::min(rates.profile_relaxation, relaxation_per_speed * speed)),
+          molecules_alignment(std::clamp(speed / rates.fast_membrane, slowest_alignment, 1.0)),
+          divergence_penalty(speed > 0 ? std::min(most_penalty, rates.divergence_penalty / speed) : most_penalty) {}
+
+    double rate;                                     // a₀ [1/µs]
+    double profile_relaxation;                       // M_p [nm/µs]
+    double molecules_alignment;                      // part of least_normal_diffusivity
+    double divergence_penalty;                       // γ, of ∇·u over ν
+    double molecules = 0;                            // ∫ c dA, predicted [nm²]: what the pool has lost
+    std::shared_ptr<const CellThickness> thickness;  // of the layer; none: uniform
+    std::shared_ptr<const PoleForce> pole_force;     // none: zero
+    std::shared_ptr<const BulkSupply> supply;        // none: the bulk is never depleted
 
     /// ε at the point (x, y) of a unit cell.
     [[nodiscard]] PointThickness thickness_at(std::size_t active_cell, const CellBox& box, double x, double y) const {

@@ -20,6 +20,11 @@ RECIPE = {
         "         [](const InitialPoint& at, const MembraneEnergy&) { return at.molecules * at.molecules; }, nullptr},\n"
         "    }};\n    return table;\n",
     ),
+    "equation_pattern.cpp": (
+        "    {membrane_stretch, value(distance)",
+        "    {blurred_square, value(blurred_square) | value(molecule_density), r(blurred_square), z(blurred_square)},\n"
+        "    {membrane_stretch, value(distance)",
+    ),
     "point_equations.h": (
         "    return row;\n",
         "    const auto &c = x[molecule_density], &w = x[blurred_square];\n"

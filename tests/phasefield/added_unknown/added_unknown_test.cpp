@@ -72,7 +72,7 @@ TEST_CASE("an added unknown starts with its initial value and is solved for", "[
     // of the other equations was measured to be 2e-12.
     for (const Field tested_with : {molecule_density, blurred_square})
         CHECK(relative_residual(one.space, p, x, tested_with) == Approx(0.09).margin(0.02));
-    one.solver.solve(one.space, numbers, history, x);
+    one.solver.solve({one.space, one.energy, numbers, history}, x);
     for (const Field tested_with : {molecule_density, blurred_square})
         CHECK(relative_residual(one.space, p, x, tested_with) < 1e-10);
 }

@@ -1,0 +1,42 @@
+#include "phasefield/schemes/production/step_factors.h"
+
+#include "phasefield/schemes/production/constants.h"
+#include "phasefield/schemes/production/diagnostics.h"
+
+namespace endoflow::phasefield::production {
+
+namespace {
+
+constexpr double farthest = constant("farthest");
+
+}  // namespace
+
+bool StepFactors::serve(const StepProblem& problem, const Vector& solution) const {
+    if (!system_.has_factors()) return false;
+    Vector moved = solution;
+    moved -= origin_;
+    moved.update_ghost_values();
+    return layer_increment(problem.space, problem.numbers, moved, solution) <
+           farthest * problem.numbers.numerics.epsilon;
+}
+
+Vector StepFactors::make(const StepProblem& problem, const Vector& solution) {
+    origin_.reinit(solution, true);  // assignment alone could keep the ghosts of an earlier mesh
+    origin_ = solution;
+    assemble(problem, pattern_, solution, system_);
+    Vector out = problem.space.vector();
+    ++made_;
+    if (system_.precision() == Precision::full) ++full_;
+    system_.forget_factors();
+    system_.solve(problem.space, out);
+    return out;
+}
+
+Vector StepFactors::increment(const StepProblem& problem, const Vector& solution) {
+    assemble_residual(problem, solution, system_);
+    Vector out = problem.space.vector();
+    system_.apply_factors(problem.space, out);
+    return out;
+}
+
+}  // namespace endoflow::phasefield::production

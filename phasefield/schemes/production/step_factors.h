@@ -1,0 +1,47 @@
+#pragma once
+
+#include "phasefield/schemes/production/assembly.h"
+#include "phasefield/solver/condensed_system.h"
+
+namespace endoflow::phasefield::production {
+
+/// Factors of the coupled equations' Jacobian. Making them costs as much as twenty-five to thirty solutions with them,
+/// so those of an earlier step are kept.
+class StepFactors {
+  public:
+    explicit StepFactors(MPI_Comm communicator) : system_(communicator, "coupled") {}
+
+    /// The mesh has changed: there are none.
+    void reinit(const Space& space) { system_.reinit(space); }
+    void forget() { system_.forget_factors(); }
+
+    /// In single precision, or not; forgets those there are where that changes.
+    void use(Precision precision) { system_.use(precision); }
+    [[nodiscard]] Precision precision() const { return system_.precision(); }
+
+    /// Whether there are some that were made near this solution.
+    [[nodiscard]] bool serve(const StepProblem& problem, const Vector& solution) const;
+    /// New ones at `solution`, and Newton's increment there. Throws SolverError where the Jacobian is singular.
+    Vector make(const StepProblem& problem, const Vector& solution);
+    /// −(factors)⁻¹ × the residual at `solution`.
+    [[nodiscard]] Vector increment(const StepProblem& problem, const Vector& solution);
+
+    [[nodiscard]] unsigned int made() const { return made_; }
+    [[nodiscard]] unsigned int made_in_full_precision() const { return full_; }
+    /// What the processes solve for together on the present mesh.
+    [[nodiscard]] SubdomainSystem::Index shared_unknowns() const { return system_.shared_unknowns(); }
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive("factorisations", made_);
+        archive("factorisations_of_double_precision", full_);
+    }
+
+  private:
+    std::vector<PatternEntry> pattern_ = equation_pattern();
+    CondensedSystem system_;
+    Vector origin_;  // where they were made
+    unsigned int made_ = 0, full_ = 0;
+};
+
+}  // namespace endoflow::phasefield::production
