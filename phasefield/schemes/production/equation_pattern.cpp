@@ -53,7 +53,7 @@ struct Contents {
 };
 
 constexpr Contents contents[] = {
-    {velocity_r, normal_stress | shear | value(velocity_z) | force, normal_stress, shear_stress},
+    {velocity_r, normal_stress | z(velocity_r) | value(velocity_z) | force, normal_stress, shear_stress},
     {velocity_z, u | gradient(velocity_z) | force, shear_stress, normal_stress},
     {pressure, divergence, 0, 0},
     {pressure_layer, divergence | value(pressure_layer) | value(distance), along_normal_of_q, along_normal_of_q},
