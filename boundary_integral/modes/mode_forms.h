@@ -18,7 +18,7 @@ struct BasePoints {
     std::vector<BasePoint> points;
     std::vector<SurfaceJet> energy;  // energy density + tension * area density
     std::vector<SurfaceJet> area;
-    std::vector<SurfaceAmplitudes> curvature;  // derivatives of kappa
+    std::vector<Row<surface_variables>> curvature;  // derivatives of kappa
     double pressure = 0.0;
 };
 [[nodiscard]] BasePoints base_points(const MembraneSpace& space, const BaseState& base, const MembraneEnergy& energy,

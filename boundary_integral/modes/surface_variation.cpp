@@ -79,10 +79,4 @@ SurfaceAmplitudes hessian_times(const SurfaceJet& jet, const SurfaceAmplitudes& 
     return result;
 }
 
-double dot(const SurfaceAmplitudes& a, const SurfaceAmplitudes& b) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < surface_variables; ++i) sum += a[i] * b[i];
-    return sum;
-}
-
 }  // namespace endoflow::boundary_integral

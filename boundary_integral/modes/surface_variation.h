@@ -36,10 +36,10 @@ struct Derivatives2 {
 [[nodiscard]] SurfaceAmplitudes concentration_amplitudes(int mode, const Derivatives2& c);
 
 struct SurfaceDensities {
-    SurfaceJet energy;            // per d xi d phi, pN nm
-    SurfaceJet area;              // nm^2
-    SurfaceJet per_area;          // energy/area, pN/nm
-    SurfaceAmplitudes curvature;  // derivatives of kappa
+    SurfaceJet energy;                 // per d xi d phi, pN nm
+    SurfaceJet area;                   // nm^2
+    SurfaceJet per_area;               // energy/area, pN/nm
+    Row<surface_variables> curvature;  // derivatives of kappa
 };
 
 /// At a point r > 0 of an axisymmetric membrane; `c_xi` is the derivative of c in xi.
@@ -48,6 +48,11 @@ struct SurfaceDensities {
 
 /// a . hessian . b
 [[nodiscard]] SurfaceAmplitudes hessian_times(const SurfaceJet& jet, const SurfaceAmplitudes& b);
-[[nodiscard]] double dot(const SurfaceAmplitudes& a, const SurfaceAmplitudes& b);
+template <class Derivatives>
+[[nodiscard]] double dot(const Derivatives& a, const SurfaceAmplitudes& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < surface_variables; ++i) sum += a[i] * b[i];
+    return sum;
+}
 
 }  // namespace endoflow::boundary_integral
