@@ -38,11 +38,12 @@ template <class Function>
 void check_jet(const Function& f, const Point& at) {
     constexpr double step = 1e-5;
     const LocalJet here = f(at);
-    double scale = 0;
-    for (const double x : here.partial) scale = std::max(scale, std::abs(x));
-    double second_scale = 0;
-    for (const auto& row : here.second)
-        for (const double x : row) second_scale = std::max(second_scale, std::abs(x));
+    double scale = 0, second_scale = 0;
+    for (std::size_t i = 0; i < local::count; ++i) {
+        scale = std::max(scale, std::abs(here.partial[i]));
+        for (std::size_t j = 0; j < local::count; ++j)
+            second_scale = std::max(second_scale, std::abs(here.second[i][j]));
+    }
     for (std::size_t i = 0; i < local::count; ++i) {
         Point above = at, below = at;
         above[i] += step, below[i] -= step;
