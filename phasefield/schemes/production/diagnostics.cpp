@@ -111,7 +111,8 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
                                {&space, &rate, {molecule_density}}};
     if (step.supply) wanted.push_back({step.supply->space, &step.supply->values, {depletion_at_membrane}});
     SolutionMeasures out{};
-    auto& [integrals, diagnostics, difference, layer_motion, molecules_rate] = out;
+    LayerIntegrals& integrals = out.integrals;
+    StepDiagnostics& diagnostics = out.diagnostics;
     for_each_point(space, step, quadrature, wanted, [&](const CellPoint& point, const auto& x) {
         const PointState at(point, x[0], energy, step);
         const double w = point.measure, psi = at.x[distance].value, s = at.x[membrane_stretch].value;
@@ -128,11 +129,11 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
         raise(diagnostics.area_strain_max, std::abs(s - 1));
         raise(diagnostics.profile_error_max, thickness_error);
         raise(diagnostics.motion_max, motion);
-        raise(layer_motion, motion * step.numerics.epsilon / at.epsilon);
-        raise(molecules_rate, std::abs(x[3][molecule_density].value));
+        raise(out.layer_motion, motion * step.numerics.epsilon / at.epsilon);
+        raise(out.molecules_rate, std::abs(x[3][molecule_density].value));
         if (std::abs(at.layer.phi) >= layer_middle) return;
         raise(diagnostics.thickness_error_max, thickness_error);
-        raise(difference, std::abs(psi - x[2][distance].value));
+        raise(out.step_difference, std::abs(psi - x[2][distance].value));
     });
     const MPI_Comm communicator = space.dofs.get_communicator();
     sum_over_processes({&integrals.area, &integrals.molecules, &integrals.stretching, &diagnostics.bending_energy,
@@ -142,7 +143,7 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
                        communicator);
     largest_of_processes(
         {&diagnostics.area_strain_max, &diagnostics.thickness_error_max, &diagnostics.profile_error_max,
-         &diagnostics.motion_max, &difference, &layer_motion, &molecules_rate},
+         &diagnostics.motion_max, &out.step_difference, &out.layer_motion, &out.molecules_rate},
         communicator);
     return out;
 }

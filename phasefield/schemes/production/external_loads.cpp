@@ -52,14 +52,15 @@ double RimTension::power(const Cell& cell, const Vector& solution) {
 }
 
 double load_power(const StepProblem& problem, const Vector& solution) {
-    const auto& [space, energy, step, history] = problem;
+    const Space& space = problem.space;
+    const StepNumbers& step = problem.numbers;
     if (step.loads.none()) return 0;
     const dealii::QGauss<2> quadrature(gauss_points(step.numerics));
     double sum = 0;
     for_each_point(space, step, quadrature, {{&space, &solution, {velocity_r, velocity_z, distance}}},
                    [&](const CellPoint& at, const auto& fields) {
                        const Fields<double>& x = fields.front();
-                       const PointPast& past = history.points.at(at.cell->active_cell_index())[at.q];
+                       const PointPast& past = problem.past.points.at(at.cell->active_cell_index())[at.q];
                        const auto layer = layer_profile(x[distance].value, at.thickness.value);
                        const double u_r = x[velocity_r].value, u_z = x[velocity_z].value;
                        const double pushed = -step.loads.pressure * (x[distance].r * u_r + x[distance].z * u_z);
