@@ -78,8 +78,8 @@ StepNumbers ProductionScheme::at_rest() const {
 }
 
 std::vector<Vector> ProductionScheme::with_their_molecules(const StepNumbers& step) const {
-    std::vector<Vector> out;
-    for (const auto& solution : state_.solutions) out.push_back(copied(solution));
+    std::vector<Vector> out = state_.solutions;
+    for (const auto& solution : out) solution.update_ghost_values();  // copies do not have them
     const auto now = molecules_of(space_, step, out);
     for (std::size_t j = 0; j < now.size(); ++j)
         if (now[j] > 0) scale_component(space_, molecule_density, state_.masses[j] / now[j], out[j]);
