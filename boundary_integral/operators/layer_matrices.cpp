@@ -1,7 +1,5 @@
 #include "boundary_integral/operators/layer_matrices.h"
 
-#include "boundary_integral/kernels/point_sums.h"
-
 namespace endoflow::boundary_integral {
 
 void LayerSums::add(const LayerColumns& columns, const std::vector<double>& kernel, Index row) {
@@ -26,8 +24,8 @@ void LayerSums::finish() {
         const auto& [columns, group, kernel, row] = entries_[k];
         double* begin = columns->matrix->row(row).data() + columns->first;
         for (std::size_t piece = 0; piece < pieces; ++piece) {
-            points_->basis[columns->table].scatter(piece * per_piece, group, &sums_[k][basis_stride * piece],
-                                                   columns->factor, begin, columns->stride);
+            points_->basis[columns->table].scatter(piece, group, &sums_[k][basis_stride * piece], columns->factor,
+                                                   begin, columns->stride);
         }
     }
     count_ = 0;

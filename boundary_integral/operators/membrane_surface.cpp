@@ -17,9 +17,12 @@ bool holds(const MembraneSpace& space, Index element, double xi) {
     return xi >= begin - slack && xi <= begin + space.element_width() + slack;
 }
 
-BasisTable table_of(const std::vector<BasisRow>& rows) {
+BasisTable table_of(const std::vector<BasisRow>& rows, std::size_t points_per_element) {
     BasisTable table(BasisRow::capacity, rows.size());
-    for (const BasisRow& row : rows) table.add(row.index, row.value[0]);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (i % points_per_element == 0) table.begin_piece(rows[i].index);
+        table.add(rows[i].value[0]);
+    }
     return table;
 }
 
@@ -65,11 +68,13 @@ MembraneSurface::MembraneSurface(const MembraneSpace& space, const MembraneState
       near_distance_(quadrature.near_distance),
       lengths_(at(space.elements()), 0.0) {
     nodes_.pieces = space.elements();
-    for (const MembraneFunctions& of_kind : functions_) nodes_.basis.push_back(table_of(of_kind.at_gauss_points));
+    const std::size_t per_element = at(space.points_per_element());
+    for (const MembraneFunctions& of_kind : functions_)
+        nodes_.basis.push_back(table_of(of_kind.at_gauss_points, per_element));
     for (std::size_t i = 0; i < samples.curve.size(); ++i) {
         const CurvePoint& p = samples.curve[i];
         nodes_.add_node(p.r, p.z, p.normal_r, p.normal_z, space.weight[i] * p.r * p.g);
-        lengths_[i / at(space.points_per_element())] += space.weight[i] * p.g;
+        lengths_[i / per_element] += space.weight[i] * p.g;
     }
 }
 
@@ -82,7 +87,7 @@ SurfacePoints MembraneSurface::shown(const ElementPoints& on, const OffsetOf& of
         const CurveOffset offset = offset_of(i, x);
         points.add(x.r, offset.r, offset.z, x.normal_r, offset.normal / x.g, on.rule.weights[i] * x.r * x.g);
     }
-    for (const std::vector<BasisRow>& rows : on.rows) points.basis.push_back(table_of(rows));
+    for (const std::vector<BasisRow>& rows : on.rows) points.basis.push_back(table_of(rows, rows.size()));
     return points;
 }
 

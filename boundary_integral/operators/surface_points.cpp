@@ -2,38 +2,33 @@
 
 #include <algorithm>
 
-#include "boundary_integral/kernels/point_sums.h"
-
 namespace endoflow::boundary_integral {
 
-BasisTable::BasisTable(std::size_t functions, std::size_t points) : functions_(functions) {
-    index_.reserve(functions_ * points);
-    values_.reserve(width() * points);
+BasisTable::BasisTable(std::size_t functions, std::size_t points)
+    : functions_(functions), width_((functions + basis_stride - 1) / basis_stride * basis_stride) {
+    values_.reserve(width_ * points);
 }
 
-void BasisTable::add(std::span<const Index> index, std::span<const double> values, double factor) {
+void BasisTable::begin_piece(std::span<const Index> index) {
     index_.insert(index_.end(), index.begin(), index.end());
-    for (const double value : values) values_.push_back(factor * value);
-    values_.insert(values_.end(), width() - functions_, 0.0);
 }
 
-std::size_t BasisTable::groups() const {
-    return (functions_ + basis_stride - 1) / basis_stride;
+void BasisTable::add(std::span<const double> values, double factor) {
+    const std::size_t first = values_.size();
+    values_.resize(first + width_);
+    for (std::size_t j = 0; j < values.size(); ++j) values_[first + j] = factor * values[j];
 }
 
-std::size_t BasisTable::width() const {
-    return basis_stride * groups();
-}
-
-const double* BasisTable::values(std::size_t group) const {
-    return values_.data() + basis_stride * group;
-}
-
-void BasisTable::scatter(std::size_t point, std::size_t group, const double* sums, double factor, double* row,
+void BasisTable::scatter(std::size_t piece, std::size_t group, const double* sums, double factor, double* row,
                          Index stride) const {
-    const std::size_t first = basis_stride * group;
-    const std::size_t count = std::min(basis_stride, functions_ - first);
-    const Index* index = index_.data() + functions_ * point + first;
+    const std::size_t first = basis_stride * group, count = std::min(basis_stride, functions_ - first);
+    const Index* index = index_.data() + functions_ * piece + first;
+    constexpr std::size_t splines = BasisRow::capacity;
+    if (count == splines && stride == 1 && index[splines - 1] == index[0] + static_cast<Index>(splines) - 1) {
+        double* begin = row + index[0];  // side by side: six at once
+        for (std::size_t j = 0; j < splines; ++j) begin[j] += factor * sums[j];
+        return;
+    }
     for (std::size_t j = 0; j < count; ++j) row[stride * index[j]] += factor * sums[j];
 }
 

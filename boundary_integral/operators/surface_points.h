@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "boundary_integral/kernels/point_sums.h"
 #include "boundary_integral/kernels/ring_kernels.h"
 #include "boundary_integral/operators/layer_target.h"
 
@@ -17,20 +18,22 @@ class BasisTable {
     /// With room for some points.
     BasisTable(std::size_t functions, std::size_t points);
 
-    /// One more point: factor times these values of the functions with these indices.
-    void add(std::span<const Index> index, std::span<const double> values, double factor = 1.0);
+    /// The indices of the functions that are other than 0 on the piece whose points come next.
+    void begin_piece(std::span<const Index> index);
+    /// One more point: factor times these values.
+    void add(std::span<const double> values, double factor = 1.0);
 
     /// Functions come in groups of basis_stride; values of a group at the first point, and how far it is to the next.
-    [[nodiscard]] std::size_t groups() const;
-    [[nodiscard]] std::size_t width() const;
-    [[nodiscard]] const double* values(std::size_t group) const;
+    [[nodiscard]] std::size_t groups() const { return width_ / basis_stride; }
+    [[nodiscard]] std::size_t width() const { return width_; }
+    [[nodiscard]] const double* values(std::size_t group) const { return values_.data() + basis_stride * group; }
 
-    /// row[stride × index of function j] += factor × sums[j] for a group of the functions at a point.
-    void scatter(std::size_t point, std::size_t group, const double* sums, double factor, double* row,
+    /// row[stride × index of function j] += factor × sums[j] for a group of the functions on a piece.
+    void scatter(std::size_t piece, std::size_t group, const double* sums, double factor, double* row,
                  Index stride) const;
 
   private:
-    std::size_t functions_;
+    std::size_t functions_, width_;
     std::vector<Index> index_;
     std::vector<double> values_;
 };

@@ -37,12 +37,14 @@ void WallSurface::add_functions(const WallPanel& panel, std::span<const Point> p
     const double free = segment.kind == WallKind::free ? 1.0 : 0.0, band = 1.0 - free;
     std::vector<Index> index(walls_.rule().nodes.size());
     std::iota(index.begin(), index.end(), panel.first_node);
+    for (const WallTable table : {lateral_table, vertical_table, traction_table}) basis[table].begin_piece(index);
+    basis[frame_table].begin_piece(std::array<Index, 1>{0});
     for (const Point& point : points) {
         const std::vector<double> shape = walls_.lagrange(panel, point.tau);
-        basis[lateral_table].add(index, shape, segment.viscosity);
-        basis[vertical_table].add(index, shape, free * segment.viscosity);
-        basis[traction_table].add(index, shape, band / point.speed);
-        basis[frame_table].add(std::array<Index, 1>{0}, std::array{band});
+        basis[lateral_table].add(shape, segment.viscosity);
+        basis[vertical_table].add(shape, free * segment.viscosity);
+        basis[traction_table].add(shape, band / point.speed);
+        basis[frame_table].add(std::array{band});
     }
 }
 
