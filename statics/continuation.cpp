@@ -129,6 +129,16 @@ std::optional<BranchPoint> begin_branch(const BoundaryValueProblem& problem, con
     return BranchPoint{std::move(solved->solution), std::move(solved->tangent), 0, 0};
 }
 
+std::optional<BranchPoint> begin_branch_at(const BoundaryValueProblem& problem, const GaussRule& rule,
+                                           const PiecewiseSolution& solution, std::size_t elements, double parameter,
+                                           double target) {
+    const GaussRule rule_of_solution(static_cast<int>(solution.slopes.front().cols()));
+    const auto mesh = equidistributed_mesh(solution, rule_of_solution, problem.state_scales, elements);
+    PiecewiseSolution guess = resample(solution, rule_of_solution, mesh, rule);
+    guess.parameter = parameter;
+    return begin_branch(problem, rule, guess, target);
+}
+
 Branch follow_branch(const BoundaryValueProblem& problem, const GaussRule& rule, const BranchPoint& start,
                      double target, const ContinuationSettings& settings, const Admissible& admissible,
                      const Visitor& visit) {

@@ -58,6 +58,11 @@ using Visitor = std::function<bool(const BranchPoint&)>;
 [[nodiscard]] std::optional<BranchPoint> begin_branch(const BoundaryValueProblem& problem, const GaussRule& rule,
                                                       const PiecewiseSolution& guess, double target);
 
+/// The same from another problem's solution, which is interpolated on `elements` elements.
+[[nodiscard]] std::optional<BranchPoint> begin_branch_at(const BoundaryValueProblem& problem, const GaussRule& rule,
+                                                         const PiecewiseSolution& solution, std::size_t elements,
+                                                         double parameter, double target);
+
 /// Pseudo-arclength continuation (H. B. Keller 1977) from `start` until the parameter reaches `target` for the first
 /// time, folds being located on the way. The mesh is adapted at every point, its number of elements stays.
 [[nodiscard]] Branch follow_branch(const BoundaryValueProblem& problem, const GaussRule& rule, const BranchPoint& start,

@@ -12,8 +12,6 @@ namespace endoflow::statics {
 
 namespace {
 
-static_assert(state::r_squared == vesicle::r_squared, "arc length is that of either kind of solution");
-
 /// A coordinate u in [0, 1] in which curves are smooth up to their ends on the axis, where they are not in x =
 /// a/a(end).
 struct SmoothCoordinate {
@@ -67,21 +65,26 @@ struct ArcLength {
         return {at, s[i] + between(u[i], at)};
     }
 
-    /// Calls take(x, s) at points of nearly equal distance, both ends among them.
-    template <class Take>
-    void at_even_points(std::size_t points, const Take& take) const {
+    /// The curve at points of nearly equal distance, both ends among them, at rest. point_at(x) gives what is there.
+    template <class PointAt>
+    [[nodiscard]] MembraneCurve curve(std::size_t points, const PointAt& point_at) const {
+        MembraneCurve curve;
         for (std::size_t i = 0; i < points; ++i) {
             const double wanted = s.back() * static_cast<double>(i) / static_cast<double>(points - 1);
             const auto [at, length] = i + 1 == points ? std::pair{1.0, s.back()} : near(wanted);
-            take(smooth.x(at), length);
+            const PointOfShape point = point_at(smooth.x(at));
+            curve.s.push_back(length);
+            curve.r.push_back(point.r);
+            curve.z.push_back(point.z);
+            curve.c.push_back(point.c);
+            curve.lambda.push_back(point.tension);
+            curve.kappa.push_back(point.total_curvature);
         }
+        curve.u_r.assign(points, 0);
+        curve.u_z.assign(points, 0);
+        return curve;
     }
 };
-
-void set_at_rest(MembraneCurve& curve) {
-    curve.u_r.assign(curve.s.size(), 0);
-    curve.u_z.assign(curve.s.size(), 0);
-}
 
 }  // namespace
 
@@ -89,37 +92,23 @@ MembraneCurve sampled_curve(const Parameters& parameters, const PiecewiseSolutio
                             std::size_t points) {
     const StationaryCase stationary(parameters);
     const double label = solution.globals(global::area);
-    MembraneCurve curve;
-    ArcLength(solution, rule, label, from_axis).at_even_points(points, [&](double x, double s) {
-        const PointOfShape point = point_of_shape(stationary, label * x, evaluate(solution, rule, x));
-        curve.s.push_back(s);
-        curve.r.push_back(x > 0 ? point.r : 0);
-        curve.z.push_back(point.z);
-        curve.c.push_back(point.c);
-        curve.lambda.push_back(point.tension);
-        curve.kappa.push_back(point.total_curvature);
+    MembraneCurve curve = ArcLength(solution, rule, label, from_axis).curve(points, [&](double x) {
+        return point_of_shape(stationary, label * x, evaluate(solution, rule, x));
     });
-    set_at_rest(curve);
+    curve.r.front() = 0;
     return curve;
 }
 
-MembraneCurve sampled_curve(const VesicleState& state, const GaussRule& rule, double centre, double concentration,
-                            std::size_t points) {
+MembraneCurve sampled_curve(const VesicleState& state, const GaussRule& rule, double centre, std::size_t points) {
     const PiecewiseSolution& solution = state.solution;
-    const double north = centre - 0.5 * solution.nodes(vesicle::height, solution.nodes.cols() - 1);
-    const double tension = state.tension();
-    MembraneCurve curve;
-    ArcLength(solution, rule, state.membrane.area / (2 * pi), from_pole_to_pole)
-        .at_even_points(points, [&](double x, double s) {
-            const Eigen::VectorXd y = evaluate(solution, rule, x);
-            curve.s.push_back(s);
-            curve.r.push_back(x > 0 && x < 1 ? std::sqrt(std::max(y(vesicle::r_squared), 0.0)) : 0);
-            curve.z.push_back(north + y(vesicle::height));
-            curve.c.push_back(concentration);
-            curve.lambda.push_back(tension);
-            curve.kappa.push_back(state.membrane.spontaneous_curvature + y(vesicle::moment) / state.membrane.stiffness);
-        });
-    set_at_rest(curve);
+    const double label = state.membrane.area / (2 * pi);
+    MembraneCurve curve = ArcLength(solution, rule, label, from_pole_to_pole).curve(points, [&](double x) {
+        return point_of_vesicle(state.membrane, state.pressure(), x, evaluate(solution, rule, x));
+    });
+    const double north = centre - 0.5 * curve.z.back();
+    for (double& z : curve.z) z += north;
+    curve.r.front() = curve.r.back() = 0;
+    curve.lambda.assign(points, state.tension());
     return curve;
 }
 

@@ -12,9 +12,9 @@ namespace endoflow::statics {
 [[nodiscard]] MembraneCurve sampled_curve(const Parameters& parameters, const PiecewiseSolution& solution,
                                           const GaussRule& rule, std::size_t points);
 
-/// The same of a vesicle, from pole to pole, its poles at equal distances from z = `centre`; evenly coated.
+/// The same of a vesicle, from pole to pole, its poles at equal distances from z = `centre`.
 [[nodiscard]] MembraneCurve sampled_curve(const VesicleState& state, const GaussRule& rule, double centre,
-                                          double concentration, std::size_t points);
+                                          std::size_t points);
 
 /// The narrowest place between two wider ones among the mesh points, nm; infinite when there is none.
 [[nodiscard]] double narrowest_radius(const PiecewiseSolution& solution);

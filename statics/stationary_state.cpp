@@ -195,12 +195,7 @@ std::optional<Branch> continue_state(const StationaryState& state, const CasePat
                                      const Visitor& visit, const Resolution& resolution) {
     const GaussRule rule(resolution.points);
     const BoundaryValueProblem problem = stationary_shapes(with, begin, std::max(std::abs(begin), 0.1 * std::abs(end)));
-    const PiecewiseSolution& solution = state.point.solution;
-    const GaussRule rule_of_state(static_cast<int>(solution.slopes.front().cols()));
-    const auto mesh = equidistributed_mesh(solution, rule_of_state, problem.state_scales, resolution.elements);
-    PiecewiseSolution guess = resample(solution, rule_of_state, mesh, rule);
-    guess.parameter = begin;
-    const auto start = begin_branch(problem, rule, guess, end);
+    const auto start = begin_branch_at(problem, rule, state.point.solution, resolution.elements, begin, end);
     if (!start) return std::nullopt;
     const auto visit_open = [&](const BranchPoint& point) { return visit(point) && neck_is_open(point); };
     return follow_branch(problem, rule, *start, end, {}, off_the_axis, visit_open);

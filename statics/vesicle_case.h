@@ -7,9 +7,8 @@ namespace endoflow::statics {
 
 /// A case with domain.kind = free_space as a problem of statics.
 struct VesicleCase {
-    ClosedMembrane membrane;   // area and volume are those of the case's spheroid
-    VesicleFamily family;      // prolate or oblate as the spheroid is
-    double concentration = 0;  // c, the same everywhere
+    ClosedMembrane membrane;  // area and volume are those of the case's spheroid
+    VesicleFamily family;     // prolate or oblate as the spheroid is
 };
 
 /// Throws InputError when the membrane is not the same everywhere, i.e. the patch covers a part of it and makes a

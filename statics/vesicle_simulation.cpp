@@ -21,7 +21,7 @@ struct VesicleRecord {
     std::optional<double> followed;  // value of the branch's parameter
 
     [[nodiscard]] double reduced_energy() const {
-        return state.bending_energy() / (8 * std::numbers::pi * state.membrane.stiffness);
+        return state.bending_energy() / (8 * std::numbers::pi * state.membrane.stiffness());
     }
 };
 
@@ -47,8 +47,8 @@ const std::vector<OwnColumn<VesicleRecord>>& own_vesicle_columns() {
 /// Writes a vesicle of the case; `place` and `followed` say where on a branch it lies.
 Json write_vesicle(StateWriter& writer, const Parameters& parameters, const VesicleState& state,
                    const BranchPoint& place, std::optional<double> followed) {
-    const MembraneCurve curve = sampled_curve(state, GaussRule(Resolution{}.points), parameters.domain.membrane_height,
-                                              vesicle_case(parameters).concentration, curve_points);
+    const MembraneCurve curve =
+        sampled_curve(state, GaussRule(Resolution{}.points), parameters.domain.membrane_height, curve_points);
     const VesicleRecord record{state, curve, place, followed};
     Json figures = writer.write(curve, BendingModel(parameters.membrane), own_values(own_vesicle_columns(), record));
     figures["reduced_volume"] = state.membrane.reduced_volume();

@@ -21,9 +21,12 @@ constexpr double first_reduced_volume = 0.97;
 
 Spheroid spheroid_of(const ClosedMembrane& membrane, VesicleFamily family) {
     const double wanted = membrane.reduced_volume();
+    ClosedMembrane unit = membrane;
     const auto excess = [&](double log_ratio) {
         const Spheroid shape{1, std::exp(log_ratio)};
-        return ClosedMembrane{1, 0, shape.area(), shape.volume()}.reduced_volume() - wanted;
+        unit.area = shape.area();
+        unit.volume = shape.volume();
+        return unit.reduced_volume() - wanted;
     };
     const double end = family == VesicleFamily::prolate ? 5 : -5;
     constexpr int bits = 40;
@@ -36,20 +39,20 @@ Eigen::VectorXd states_of(const ClosedMembrane& membrane, const Spheroid& shape,
     const double t = shape.parameter_of(x), g = shape.metric(t), radius = membrane.sphere_radius();
     const double hoop = shape.polar / (shape.equator * g);
     const double meridional = shape.equator * shape.polar / std::pow(g, 3);
-    Eigen::VectorXd y(vesicle::states);
+    Eigen::VectorXd y(state::closed_states);
     y << std::pow(shape.equator * std::sin(t), 2), shape.equator * std::cos(t) / g, hoop,
-        membrane.stiffness * (meridional + hoop),
-        -6 * membrane.stiffness / (radius * radius) * shape.equator * std::cos(t) / g, shape.polar * (std::cos(t) - 1),
-        membrane.volume / pi * x, 4 * membrane.stiffness * x;
+        membrane.stiffness() * (meridional + hoop),
+        -6 * membrane.stiffness() / (radius * radius) * shape.equator * std::cos(t) / g,
+        shape.polar * (std::cos(t) - 1), membrane.volume / pi * x, 4 * membrane.stiffness() * x;
     return y;
 }
 
 /// Neither does the membrane touch the axis between its poles, nor do the poles pass through each other.
 bool is_embedded(const PiecewiseSolution& solution) {
-    const auto y = solution.nodes.row(vesicle::r_squared);
+    const auto y = solution.nodes.row(state::r_squared);
     const Eigen::Index last = y.size() - 1;
     return y.segment(1, last - 1).minCoeff() > 0 &&
-           solution.nodes(vesicle::height, 0) > solution.nodes(vesicle::height, last);
+           solution.nodes(state::height, 0) > solution.nodes(state::height, last);
 }
 
 bool go_on(const BranchPoint& /*point*/) {
@@ -107,16 +110,16 @@ struct Route {
         return at.parameter;
     }
     void to_curvature(const ClosedMembrane& membrane, double to) {
-        follow(vesicle_shapes(path_in_curvature(membrane), 0, 1 / membrane.sphere_radius()), 0, to,
+        follow(stationary_shapes(path_in_curvature(membrane), 0, 1 / membrane.sphere_radius()), 0, to,
                "spontaneous curvature");
     }
 
   private:
     static BoundaryValueProblem in_volume(const ClosedMembrane& membrane, double typical) {
-        return vesicle_shapes(path_in_reduced_volume(membrane), typical, 0.1);
+        return stationary_shapes(path_in_reduced_volume(membrane), typical, 0.1);
     }
     static BoundaryValueProblem in_polarity(const ClosedMembrane& membrane) {
-        return vesicle_shapes(path_in_polarity(membrane), 0, 1 / membrane.sphere_radius());
+        return stationary_shapes(path_in_polarity(membrane), 0, 1 / membrane.sphere_radius());
     }
     void follow(const BoundaryValueProblem& problem, double from, double to, const char* parameter,
                 BranchEnd expected = BranchEnd::reached_target) {
@@ -161,23 +164,23 @@ void go_to_stomatocyte(Route& route, const ClosedMembrane& membrane, double redu
 }
 
 double relative_change(const PiecewiseSolution& coarse, const PiecewiseSolution& fine) {
-    const auto energy = [](const PiecewiseSolution& s) { return s.nodes(vesicle::energy, s.nodes.cols() - 1); };
-    const double pressure = std::abs(coarse.globals(vesicle::pressure) / fine.globals(vesicle::pressure) - 1);
+    const auto energy = [](const PiecewiseSolution& s) { return s.nodes(state::energy, s.nodes.cols() - 1); };
+    const double pressure = std::abs(coarse.globals(global::pressure) / fine.globals(global::pressure) - 1);
     return std::max(std::abs(energy(coarse) / energy(fine) - 1), pressure);
 }
 
 }  // namespace
 
 double VesicleState::bending_energy() const {
-    return 2 * pi * solution.nodes(vesicle::energy, solution.nodes.cols() - 1);
+    return 2 * pi * solution.nodes(state::energy, solution.nodes.cols() - 1);
 }
 
 double VesicleState::pressure() const {
-    return solution.globals(vesicle::pressure);
+    return solution.globals(global::pressure);
 }
 
 double VesicleState::tension() const {
-    return vesicle_tension(membrane, solution.nodes.col(0), pressure());
+    return point_of_vesicle(membrane, pressure(), 0, solution.nodes.col(0)).tension;
 }
 
 PiecewiseSolution spheroidal_guess(const ClosedMembrane& membrane, VesicleFamily family, const GaussRule& rule,
@@ -191,7 +194,7 @@ PiecewiseSolution spheroidal_guess(const ClosedMembrane& membrane, VesicleFamily
     };
     std::vector<double> mesh;
     for (std::size_t i = 0; i <= elements; ++i) mesh.push_back(static_cast<double>(i) / static_cast<double>(elements));
-    const double pressure = -1.2 * problem.global_scales(vesicle::pressure);
+    const double pressure = -1.2 * problem.global_scales(global::pressure);
     return sample(mesh, rule, states, slopes, Eigen::VectorXd::Constant(1, pressure), membrane.reduced_volume());
 }
 
@@ -210,7 +213,7 @@ VesicleState find_vesicle(const ClosedMembrane& membrane, VesicleFamily family, 
     const double curvature = membrane.spontaneous_curvature;
     route.to_curvature(membrane, curvature);
 
-    const auto problem = vesicle_shapes(path_in_curvature(membrane), curvature, 1 / membrane.sphere_radius());
+    const auto problem = stationary_shapes(path_in_curvature(membrane), curvature, 1 / membrane.sphere_radius());
     const auto finer = interpolate(route.at, route.rule, halved_mesh(route.at.mesh));
     auto solved = solve_newton(problem, route.rule, finer, parameter_condition(finer, curvature, problem), 20);
     if (!solved) throw absence(membrane, "Newton's method failed on the refined mesh");
@@ -221,12 +224,8 @@ VesicleState find_vesicle(const ClosedMembrane& membrane, VesicleFamily family, 
 std::optional<Branch> continue_vesicle(const VesicleState& state, const MembranePath& with, double begin, double end,
                                        const Visitor& visit, const Resolution& resolution) {
     const GaussRule rule(resolution.points);
-    const auto problem = vesicle_shapes(with, begin, std::max(std::abs(begin), 0.1 * std::abs(end)));
-    const GaussRule rule_of_state(static_cast<int>(state.solution.slopes.front().cols()));
-    const auto mesh = equidistributed_mesh(state.solution, rule_of_state, problem.state_scales, resolution.elements);
-    PiecewiseSolution guess = resample(state.solution, rule_of_state, mesh, rule);
-    guess.parameter = begin;
-    const auto start = begin_branch(problem, rule, guess, end);
+    const auto problem = stationary_shapes(with, begin, std::max(std::abs(begin), 0.1 * std::abs(end)));
+    const auto start = begin_branch_at(problem, rule, state.solution, resolution.elements, begin, end);
     if (!start) return std::nullopt;
     return follow_branch(problem, rule, *start, end, {}, is_embedded, visit);
 }

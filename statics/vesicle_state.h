@@ -1,8 +1,8 @@
 #pragma once
 
 #include "statics/continuation.h"
+#include "statics/shape_equations.h"
 #include "statics/stationary_state.h"
-#include "statics/vesicle_equations.h"
 
 namespace endoflow::statics {
 

@@ -4,15 +4,12 @@
 #include <cmath>
 
 #include "boundary_integral/operators/closest_point.h"
-#include "boundary_integral/quadrature/singular_rules.h"
 
 namespace endoflow::boundary_integral {
 
 namespace {
 
-constexpr int near_points = 24;           // per side of the closest point
-constexpr double near_distance = 0.7;     // in element lengths; as for the walls' panels
-constexpr double least_distance = 1e-12;  // nm
+constexpr LayerQuadrature quadrature{.near_points = 24};
 
 /// From 2.5 lengths of a cluster on, the parts of its kernels above the fifth degree are below 2e-6 of them.
 constexpr Index cluster_elements = 4;
@@ -42,7 +39,7 @@ Eigen::MatrixXd moment_transfer(const QuadratureRule& to, const std::vector<doub
     return weights.asDiagonal() * there * legendre(from, count).transpose();
 }
 
-RingPoint ring(const CurvePoint& p) {
+RingPoint ring_point(const CurvePoint& p) {
     return {p.r, p.z, p.normal_r, p.normal_z};
 }
 
@@ -53,19 +50,14 @@ MembraneSources::MembraneSources(const MembraneSpace& space, const MembraneState
     : space_(space),
       state_(state),
       samples_(samples),
+      surface_(space, state, samples, membrane_functions(space), quadrature),
       contrast_(contrast),
       u_r_(flow.velocity.head(space.radial_count())),
       u_z_(flow.velocity.tail(space.axial_count())),
       f_r_(flow.force.head(space.radial_count())),
-      f_z_(flow.force.tail(space.force().dimension())),
-      near_rule_(gauss_legendre(near_points)),
-      lengths_(static_cast<std::size_t>(space.elements()), 0.0) {
-    for (std::size_t i = 0; i < samples.curve.size(); ++i) {
-        const CurvePoint& p = samples.curve[i];
-        rings_.push_back(
-            {ring(p), density(p, space.radial_rows[i], space.axial_rows[i], space.force_rows[i], space.weight[i])});
-        lengths_[i / static_cast<std::size_t>(space.points_per_element())] += space.weight[i] * p.g;
-    }
+      f_z_(flow.force.tail(space.force().dimension())) {
+    for (std::size_t i = 0; i < samples.curve.size(); ++i)
+        rings_.push_back(ring(space.radial_rows[i], space.axial_rows[i], space.force_rows[i], space.weight[i]));
     for (Index first = 0; first < space.elements(); first += cluster_elements)
         clusters_.push_back(cluster(first, std::min(cluster_elements, space.elements() - first)));
 }
@@ -82,8 +74,7 @@ MembraneSources::Cluster MembraneSources::cluster(Index first_element, Index ele
         result.centre.r += samples_.curve[i].r / static_cast<double>(count);
         result.centre.z += samples_.curve[i].z / static_cast<double>(count);
     }
-    for (Index e = first_element; e < first_element + elements; ++e)
-        result.length += lengths_[static_cast<std::size_t>(e)];
+    for (Index e = first_element; e < first_element + elements; ++e) result.length += surface_.length(e);
     for (std::size_t i = first; i < first + count; ++i)
         result.radius = std::max(result.radius, std::sqrt(squared_distance(samples_.curve[i], result.centre)));
     const QuadratureRule rule = gauss_legendre(cluster_points);
@@ -101,13 +92,15 @@ MembraneSources::Cluster MembraneSources::cluster(Index first_element, Index ele
             sum.pressure_r += part * d.pressure_r;
             sum.pressure_z += part * d.pressure_z;
         }
-        result.rings.push_back({ring(curve_point(space_.radial().basis(xi), space_.axial().basis(xi), state_)), sum});
+        result.rings.push_back(
+            {ring_point(curve_point(space_.radial().basis(xi), space_.axial().basis(xi), state_)), sum});
     }
     return result;
 }
 
-RingDensity MembraneSources::density(const CurvePoint& p, const BasisRow& radial, const BasisRow& axial,
-                                     const BasisRow& force, double weight) const {
+ChargedRing MembraneSources::ring(const BasisRow& radial, const BasisRow& axial, const BasisRow& force,
+                                  double weight) const {
+    const CurvePoint p = curve_point(radial, axial, state_);
     const double measure = weight * p.r * p.g;
     const double u_r = radial.evaluate(u_r_), u_z = axial.evaluate(u_z_);
     const double f_r = radial.evaluate(f_r_), f_z = force.evaluate(f_z_);
@@ -117,8 +110,9 @@ RingDensity MembraneSources::density(const CurvePoint& p, const BasisRow& radial
     const double turning = slope_r * p.normal_r + slope_z * p.normal_z;
     const double q_r = f_r + 2.0 * contrast_ * (p.normal_r * divergence - turning * tangent_r);
     const double q_z = f_z + 2.0 * contrast_ * (p.normal_z * divergence - turning * tangent_z);
-    return {measure * f_r, measure * f_z, measure * contrast_ * u_r, measure * contrast_ * u_z,
-            measure * q_r, measure * q_z};
+    return {ring_point(p),
+            {measure * f_r, measure * f_z, measure * contrast_ * u_r, measure * contrast_ * u_z, measure * q_r,
+             measure * q_z}};
 }
 
 void MembraneSources::add_to(RingLayers& layers, const Target& target) const {
@@ -133,37 +127,15 @@ void MembraneSources::add_to(RingLayers& layers, const Target& target) const {
 }
 
 void MembraneSources::add_element(RingLayers& layers, const Target& target, Index element) const {
-    const auto per_element = static_cast<std::size_t>(space_.points_per_element());
-    const std::size_t first = static_cast<std::size_t>(element) * per_element;
-    double closest = 1e300;
-    std::size_t closest_point = first;
-    for (std::size_t i = first; i < first + per_element; ++i) {
-        const double distance = squared_distance(samples_.curve[i], target);
-        if (distance < closest) {
-            closest = distance;
-            closest_point = i;
-        }
+    const auto near = surface_.near_points(target, element);
+    if (!near) {
+        const auto count = static_cast<std::size_t>(space_.points_per_element());
+        layers.add({&rings_[static_cast<std::size_t>(element) * count], count});
+        return;
     }
-    const double near = near_distance * lengths_[static_cast<std::size_t>(element)];
-    if (closest < near * near) {
-        add_near_element(layers, target, element, space_.xi[closest_point]);
-    } else {
-        layers.add({&rings_[first], per_element});
-    }
-}
-
-void MembraneSources::add_near_element(RingLayers& layers, const Target& target, Index element, double guess) const {
-    const double begin = static_cast<double>(element) * space_.element_width();
-    const auto [closest, p] = closest_on_element(space_, state_, element, target, guess);
-    const double distance = std::max(std::sqrt(squared_distance(p, target)), least_distance);
-    const OffsetRule rule =
-        near_singular_rule(begin, begin + space_.element_width(), closest, distance / p.g, near_rule_);
-    for (std::size_t i = 0; i < rule.offsets.size(); ++i) {
-        const double xi = rule.origin + rule.offsets[i];
-        const BasisRow radial = space_.radial().basis(xi, element);
-        const BasisRow axial = space_.axial().basis(xi, element);
-        const CurvePoint x = curve_point(radial, axial, state_);
-        const ChargedRing charged{ring(x), density(x, radial, axial, space_.force().basis(xi), rule.weights[i])};
+    for (std::size_t i = 0; i < near->rule.weights.size(); ++i) {
+        const ChargedRing charged = ring(near->rows[radial_table][i], near->rows[axial_table][i],
+                                         near->rows[force_table][i], near->rule.weights[i]);
         layers.add({&charged, 1});
     }
 }

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "boundary_integral/fields/ring_layers.h"
-#include "boundary_integral/membrane/membrane_space.h"
-#include "shared/numerics/gauss_legendre.h"
+#include "boundary_integral/operators/membrane_surface.h"
 
 namespace endoflow::boundary_integral {
 
@@ -36,18 +35,16 @@ class MembraneSources {
     const MembraneSpace& space_;
     const MembraneState& state_;
     const MembraneSamples& samples_;
+    MembraneSurface surface_;
     double contrast_;
     Eigen::VectorXd u_r_, u_z_, f_r_, f_z_;
-    QuadratureRule near_rule_;
     std::vector<ChargedRing> rings_;  // at the Gauss points
-    std::vector<double> lengths_;     // of the elements, nm
     std::vector<Cluster> clusters_;
 
-    [[nodiscard]] RingDensity density(const CurvePoint& p, const BasisRow& radial, const BasisRow& axial,
-                                      const BasisRow& force, double weight) const;
+    [[nodiscard]] ChargedRing ring(const BasisRow& radial, const BasisRow& axial, const BasisRow& force,
+                                   double weight) const;
     [[nodiscard]] Cluster cluster(Index first_element, Index elements) const;
     void add_element(RingLayers& layers, const Target& target, Index element) const;
-    void add_near_element(RingLayers& layers, const Target& target, Index element, double guess) const;
 };
 
 }  // namespace endoflow::boundary_integral

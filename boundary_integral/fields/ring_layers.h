@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "boundary_integral/kernels/ring_kernels.h"
-#include "boundary_integral/operators/layer_block.h"
+#include "boundary_integral/operators/layer_target.h"
 
 namespace endoflow::boundary_integral {
 

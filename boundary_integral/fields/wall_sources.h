@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "boundary_integral/fields/ring_layers.h"
-#include "boundary_integral/walls/wall_panels.h"
+#include "boundary_integral/walls/wall_surface.h"
 
 namespace endoflow::boundary_integral {
 
@@ -25,13 +25,13 @@ class WallSources {
     };
 
     const WallPanels& walls_;
-    QuadratureRule near_rule_;
+    WallSurface surface_;
     std::vector<NodeValues> nodes_;
     std::vector<ChargedRing> rings_;  // at the nodes
 
     [[nodiscard]] RingDensity density(const WallSegment& segment, const NodeValues& values, double r, double speed,
                                       double weight) const;
-    void add_near_panel(RingLayers& layers, const WallPanel& panel, const PanelApproach& approach) const;
+    [[nodiscard]] NodeValues interpolated(const WallPanel& panel, double tau) const;
 };
 
 }  // namespace endoflow::boundary_integral

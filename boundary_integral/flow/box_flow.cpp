@@ -19,13 +19,11 @@ BoxFlow::BoxFlow(const Parameters& parameters, const MembraneSpace& space)
       walls_(parameters.domain, parameters.fluid, nodes_per_wall_panel),
       threads_(thread_count(parameters.boundary_integral.threads)) {
     const auto& nodes = walls_.nodes();
-    std::vector<WallTarget> targets;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const Index node = static_cast<Index>(i);
-        targets.push_back({{nodes[i].r, nodes[i].z}, {2 * node, 2 * node + 1}, node});
-        wall_targets_.push_back({{nodes[i].r, nodes[i].z}, {2 * node, 2 * node + 1}});
+        wall_targets_.push_back({{nodes[i].r, nodes[i].z}, {2 * node, 2 * node + 1}, -1.0, node});
     }
-    RowMatrix matrix = wall_layers(walls_, targets, walls_.unknowns(), threads_);
+    RowMatrix matrix = wall_layers(walls_, wall_targets_, walls_.unknowns(), threads_);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const Index node = static_cast<Index>(i);
         const double own = 4.0 * std::numbers::pi * walls_.segments()[nodes[i].segment].viscosity;
@@ -41,12 +39,10 @@ MobilityOperators BoxFlow::operators(const MembraneState& state, const MembraneS
     const double contrast = collocation_.contrast();
     LayerQuadrature quadrature;
     quadrature.threads = threads_;
-    const std::vector<MembraneTarget> targets = collocation_.targets(state);
+    const std::vector<LayerTarget> targets = collocation_.targets(state);
     MembraneCollocation::Equation equation = collocation_.equation(state, samples, targets, quadrature);
     MembraneLayers at_walls = membrane_layers(space(), state, samples, wall_targets_, walls_.unknowns(), quadrature);
-    std::vector<WallTarget> seen_by_walls;
-    for (const MembraneTarget& target : targets) seen_by_walls.push_back({target.at, target.rows});
-    const RowMatrix from_walls = wall_layers(walls_, seen_by_walls, collocation_.rows(), threads_);
+    const RowMatrix from_walls = wall_layers(walls_, targets, collocation_.rows(), threads_);
 
     // Z^T = A_w^-T W^T: one wall solve per membrane row serves both right-hand sides. The rows are independent of each
     // other; they are cut into blocks that do not depend on the number of threads, so that results do not either.

@@ -9,7 +9,7 @@
 
 #include "boundary_integral/flow/dense_solver.h"
 #include "boundary_integral/flow/membrane_collocation.h"
-#include "boundary_integral/walls/wall_panels.h"
+#include "boundary_integral/walls/wall_layers.h"
 
 namespace endoflow::boundary_integral {
 
@@ -31,7 +31,7 @@ class BoxFlow : public FlowModel {
     MembraneCollocation collocation_;
     WallPanels walls_;
     int threads_;
-    std::vector<MembraneTarget> wall_targets_;
+    std::vector<LayerTarget> wall_targets_;
     std::optional<LuFactors> wall_factors_;
 };
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "boundary_integral/membrane/energy.h"
-#include "boundary_integral/operators/layer_block.h"
+#include "boundary_integral/operators/layer_target.h"
 #include "shared/model/rest.h"
 
 namespace endoflow::boundary_integral {

@@ -34,7 +34,7 @@ MembraneCollocation::MembraneCollocation(const MembraneSpace& space, const Fluid
       evaluation_(evaluation_rows(space, rows())) {
     merge_targets();
     const QuadratureRule rule = gauss_legendre(LayerQuadrature{}.singular_points);
-    for (Point& point : points_) point.own = own_elements(space_, point.xi, rule);
+    for (Point& point : points_) point.own = own_elements(space_, membrane_functions(space_), point.xi, rule);
 }
 
 Index MembraneCollocation::rows() const {
@@ -57,18 +57,18 @@ void MembraneCollocation::merge_targets() {
     }
 }
 
-std::vector<MembraneTarget> MembraneCollocation::targets(const MembraneState& state) const {
-    std::vector<MembraneTarget> result;
+std::vector<LayerTarget> MembraneCollocation::targets(const MembraneState& state) const {
+    std::vector<LayerTarget> result;
     for (const Point& point : points_) {
         const CurvePoint p = curve_point(space_.radial().basis(point.xi), space_.axial().basis(point.xi), state);
         const bool on_axis = point.rows.radial < 0;
-        result.push_back({{on_axis ? 0.0 : p.r, p.z}, point.rows, point.xi, &point.own});
+        result.push_back({{on_axis ? 0.0 : p.r, p.z}, point.rows, point.xi, -1, &point.own});
     }
     return result;
 }
 
 MembraneCollocation::Equation MembraneCollocation::equation(const MembraneState& state, const MembraneSamples& samples,
-                                                            const std::vector<MembraneTarget>& targets,
+                                                            const std::vector<LayerTarget>& targets,
                                                             const LayerQuadrature& quadrature) const {
     const MembraneLayers layers = membrane_layers(space_, state, samples, targets, rows(), quadrature);
     return {4.0 * std::numbers::pi * (viscosity_below_ + viscosity_above_) * evaluation_ + contrast() * layers.doubled,

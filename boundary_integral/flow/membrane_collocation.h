@@ -18,15 +18,14 @@ class MembraneCollocation {
     [[nodiscard]] Index rows() const;
     [[nodiscard]] double contrast() const { return viscosity_below_ - viscosity_above_; }
 
-    [[nodiscard]] std::vector<MembraneTarget> targets(const MembraneState& state) const;
+    [[nodiscard]] std::vector<LayerTarget> targets(const MembraneState& state) const;
 
     struct Equation {
         Eigen::MatrixXd velocity;  // rows x curve_count
         Eigen::MatrixXd force;     // rows x force_count
     };
     [[nodiscard]] Equation equation(const MembraneState& state, const MembraneSamples& samples,
-                                    const std::vector<MembraneTarget>& targets,
-                                    const LayerQuadrature& quadrature) const;
+                                    const std::vector<LayerTarget>& targets, const LayerQuadrature& quadrature) const;
 
     /// velocity u = force f, restricted to the freedoms and with f from a load: fills force_from_load and mobility.
     void solve(const Equation& equation, MobilityOperators& operators) const;
@@ -35,7 +34,7 @@ class MembraneCollocation {
     struct Point {
         double xi;
         TargetRows rows;
-        OwnElements own;
+        std::vector<ElementPoints> own;
     };
     const MembraneSpace& space_;
     double viscosity_below_, viscosity_above_;

@@ -145,10 +145,6 @@ void RingSources::resize(std::size_t count) {
     normal_offset.resize(count);
 }
 
-void RingKernels::resize(std::size_t count) {
-    for (auto* values : {&g_rr, &g_rz, &g_zr, &g_zz, &t_rr, &t_rz, &t_zr, &t_zz}) values->resize(count);
-}
-
 EllipticIntegrals elliptic_integrals(double complementary_parameter) {
     return integrals_by_mean(complementary_parameter);
 }
@@ -170,16 +166,18 @@ void evaluate_ring_layers(double target_radius, std::size_t count, const RingSou
 
 void evaluate_ring_stokeslets(double target_radius, const RingSources& sources, RingKernels& kernels) {
     kernels.resize(sources.size());
+    auto& g = kernels.single;
     stokeslet_loop(target_radius, sources.size(), sources.radius.data(), sources.delta_r.data(), sources.delta_z.data(),
-                   kernels.g_rr.data(), kernels.g_rz.data(), kernels.g_zr.data(), kernels.g_zz.data());
+                   g[0][0].data(), g[0][1].data(), g[1][0].data(), g[1][1].data());
 }
 
 void evaluate_ring_kernels(double target_radius, const RingSources& sources, RingKernels& kernels) {
     kernels.resize(sources.size());
+    auto& g = kernels.single;
+    auto& t = kernels.doubled;
     full_loop(target_radius, sources.size(), sources.radius.data(), sources.delta_r.data(), sources.delta_z.data(),
-              sources.normal_r.data(), sources.normal_offset.data(), kernels.g_rr.data(), kernels.g_rz.data(),
-              kernels.g_zr.data(), kernels.g_zz.data(), kernels.t_rr.data(), kernels.t_rz.data(), kernels.t_zr.data(),
-              kernels.t_zz.data());
+              sources.normal_r.data(), sources.normal_offset.data(), g[0][0].data(), g[0][1].data(), g[1][0].data(),
+              g[1][1].data(), t[0][0].data(), t[0][1].data(), t[1][0].data(), t[1][1].data());
 }
 
 }  // namespace endoflow::boundary_integral

@@ -8,7 +8,9 @@
 //     ρ² = a + b σ,  a = (r - r0)^2 + (z - z0)^2,  b = 4 r r0,
 // so that nothing cancels when source and target approach each other.
 
+#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace endoflow::boundary_integral {
@@ -27,14 +29,25 @@ struct RingSources {
     [[nodiscard]] std::size_t size() const { return radius.size(); }
 };
 
-/// Kernel values, one entry per source. The first letter is the component at the target, the second that of the
-/// density. The surface measure r ds is NOT included.
-struct RingKernels {
-    std::vector<double> g_rr, g_rz, g_zr, g_zz;  // single layer [1/nm]
-    std::vector<double> t_rr, t_rz, t_zr, t_zz;  // double layer T_ijk n_k [1/nm²]
+/// Kernels of one azimuthal mode: [component at the target][component of the density], one entry per source. The
+/// surface measure r ds is NOT included.
+template <std::size_t components>
+struct LayerKernels {
+    using Values = std::array<std::array<std::vector<double>, components>, components>;
+    Values single;   // G_ij [1/nm]
+    Values doubled;  // T_ijk n_k [1/nm²]
 
-    void resize(std::size_t count);
+    void resize(std::size_t count) {
+        for (Values* values : {&single, &doubled}) {
+            for (auto& of_target : *values) {
+                for (auto& of_density : of_target) of_density.resize(count);
+            }
+        }
+    }
 };
+
+/// Axisymmetric flow without swirl: components r, z.
+using RingKernels = LayerKernels<2>;
 
 /// Complete elliptic integrals from one arithmetic-geometric mean, all free of cancellation as m -> 0:
 ///     K, E, D = (K - E)/m, B = (E - (1-m) K)/m = K - D.  Argument: the complementary parameter 1 - m in (0, 1].
@@ -45,6 +58,18 @@ struct EllipticIntegrals {
 
 /// All eight kernels for one target radius r0 ≥ 0 (the axis r0 = 0 needs no special case).
 void evaluate_ring_kernels(double target_radius, const RingSources& sources, RingKernels& kernels);
+
+/// The kernel set of axisymmetric flow; valid until the next call.
+class AxisymmetricKernels {
+  public:
+    std::span<const RingKernels> operator()(double target_radius, const RingSources& sources) {
+        evaluate_ring_kernels(target_radius, sources, kernels_);
+        return {&kernels_, 1};
+    }
+
+  private:
+    RingKernels kernels_;
+};
 
 /// Densities of layers at the sources, times the measure r ds: f of the single layer, u of the double layer, q of the
 /// pressure's kernel x / ρ³ (source's frame).

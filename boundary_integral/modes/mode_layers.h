@@ -7,24 +7,23 @@
 #include <vector>
 
 #include "boundary_integral/modes/mode_space.h"
-#include "boundary_integral/operators/layer_block.h"
+#include "boundary_integral/operators/layer_target.h"
 
 namespace endoflow::boundary_integral {
 
-struct ModeTarget {
-    Target at;
-    double xi = -1.0;  // parameter when the target lies on the membrane, -1 otherwise
-};
-
-/// Rows 3 i ... 3 i + 2 belong to target i.
 struct ModeLayers {
-    RowMatrix single;   // 3 targets x force_count
-    RowMatrix doubled;  // 3 targets x velocity_count
+    RowMatrix single;   // rows x force_count
+    RowMatrix doubled;  // rows x velocity_count
 };
 
-/// One entry per mode 0 ... highest.
+/// Rows 3 i ... 3 i + 2 for target i: r, phi, z.
+[[nodiscard]] inline TargetRows mode_rows(Index i) {
+    return {3 * i, 3 * i + 2, 3 * i + 1};
+}
+
+/// One entry per mode 0 ... highest; rows of target i as mode_rows(i) has them.
 [[nodiscard]] std::vector<ModeLayers> mode_layers(const MembraneSpace& space, const ParitySpaces& spaces,
-                                                  const MembraneState& state, const std::vector<ModeTarget>& targets,
+                                                  const MembraneState& state, const std::vector<LayerTarget>& targets,
                                                   int highest_mode, int threads);
 
 }  // namespace endoflow::boundary_integral

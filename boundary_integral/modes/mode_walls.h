@@ -17,19 +17,16 @@
 
 namespace endoflow::boundary_integral {
 
-struct ModeWallTarget {
-    Target at;
-    Index node = -1;  // when the target is a wall node
-};
-
 /// 3 nodes, and for mode 1 the horizontal traction of the band (pN/nm^2).
 [[nodiscard]] Index mode_wall_unknowns(const WallPanels& walls, int mode);
 
-/// Rows of sum_k nu_k int_{wall k} u.T.m dS - int_band t.G dS acting on the wall unknowns, three per target; one entry
-/// per mode 0 ... highest.
-[[nodiscard]] std::vector<RowMatrix> mode_wall_layers(const WallPanels& walls,
-                                                      const std::vector<ModeWallTarget>& targets, int highest_mode,
-                                                      int threads);
+/// The nodes of the walls.
+[[nodiscard]] std::vector<LayerTarget> mode_wall_targets(const WallPanels& walls);
+
+/// Rows of sum_k nu_k int_{wall k} u.T.m dS - int_band t.G dS acting on the wall unknowns, of target i as
+/// mode_rows(i) has them; one entry per mode 0 ... highest.
+[[nodiscard]] std::vector<RowMatrix> mode_wall_layers(const WallPanels& walls, const std::vector<LayerTarget>& targets,
+                                                      int highest_mode, int threads);
 
 /// The equations of the walls themselves, square: factors of the matrices for each mode.
 [[nodiscard]] std::vector<LuFactors> mode_wall_factors(const WallPanels& walls, int highest_mode, int threads);

@@ -85,18 +85,18 @@ Eigen::MatrixXd Surroundings::evaluation(int mode) const {
     return equations(mode, values);
 }
 
-std::vector<ModeTarget> Surroundings::targets(const MembraneState& state) const {
-    std::vector<ModeTarget> result;
+std::vector<LayerTarget> Surroundings::targets(const MembraneState& state) const {
+    std::vector<LayerTarget> result;
     for (const double xi : points_) {
         const CurvePoint p = curve_point(membrane_.radial().basis(xi), membrane_.axial().basis(xi), state);
         const bool on_axis = xi < slack || (membrane_.end() == CurveEnd::closed && xi > 1.0 - slack);
-        result.push_back({{on_axis ? 0.0 : p.r, p.z}, xi});
+        result.push_back({{on_axis ? 0.0 : p.r, p.z}, mode_rows(static_cast<Index>(result.size())), xi});
     }
     return result;
 }
 
 Surroundings::Layers Surroundings::layers(const BaseState& base) const {
-    const std::vector<ModeTarget> on_membrane = targets(base.membrane);
+    const std::vector<LayerTarget> on_membrane = targets(base.membrane);
     const std::vector<ModeLayers> own =
         mode_layers(membrane_, parities_, base.membrane, on_membrane, highest_mode(), threads_);
     Layers result;
@@ -108,13 +108,9 @@ Surroundings::Layers Surroundings::layers(const BaseState& base) const {
         result.traction_sum = traction_sum(base, result.of_mode[0], {});
         return result;
     }
-    std::vector<ModeTarget> on_walls;
-    for (const WallNode& node : walls_->nodes()) on_walls.push_back({{node.r, node.z}});
-    std::vector<ModeWallTarget> seen_by_walls;
-    for (const ModeTarget& target : on_membrane) seen_by_walls.push_back({target.at});
     const std::vector<ModeLayers> at_walls =
-        mode_layers(membrane_, parities_, base.membrane, on_walls, highest_mode(), threads_);
-    const std::vector<RowMatrix> from_walls = mode_wall_layers(*walls_, seen_by_walls, highest_mode(), threads_);
+        mode_layers(membrane_, parities_, base.membrane, mode_wall_targets(*walls_), highest_mode(), threads_);
+    const std::vector<RowMatrix> from_walls = mode_wall_layers(*walls_, on_membrane, highest_mode(), threads_);
     result.traction_sum = traction_sum(base, result.of_mode[0], equations(0, from_walls[0]));
     for (int mode = 0; mode <= highest_mode(); ++mode) {
         const std::size_t m = static_cast<std::size_t>(mode);

@@ -53,7 +53,7 @@ class Surroundings {
 
     [[nodiscard]] Index point_index(double xi) const;
     [[nodiscard]] Eigen::MatrixXd equations(int mode, const RowMatrix& at_points) const;
-    [[nodiscard]] std::vector<ModeTarget> targets(const MembraneState& state) const;
+    [[nodiscard]] std::vector<LayerTarget> targets(const MembraneState& state) const;
     [[nodiscard]] Eigen::VectorXd traction_sum(const BaseState& base, const CollocatedLayers& axisymmetric,
                                                const Eigen::MatrixXd& from_walls) const;
 };

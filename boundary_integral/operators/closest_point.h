@@ -3,7 +3,7 @@
 // The point of the membrane that is closest to a target off it.
 
 #include "boundary_integral/membrane/membrane_space.h"
-#include "boundary_integral/operators/layer_block.h"
+#include "boundary_integral/operators/layer_target.h"
 #include "boundary_integral/quadrature/singular_rules.h"
 
 namespace endoflow::boundary_integral {

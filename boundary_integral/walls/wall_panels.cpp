@@ -113,4 +113,19 @@ std::vector<double> WallPanels::lagrange(const WallPanel& panel, double tau) con
     return values;
 }
 
+Eigen::MatrixXd WallPanels::lagrange_slopes(const WallPanel& panel) const {
+    const std::size_t count = rule_.nodes.size();
+    const double scale = 2.0 / (panel.tau_end - panel.tau_begin);
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(static_cast<Index>(count), static_cast<Index>(count));
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t j = 0; j < count; ++j) {
+            if (j == i) continue;
+            const double slope = scale * barycentric_[j] / barycentric_[i] / (rule_.nodes[i] - rule_.nodes[j]);
+            slopes(static_cast<Index>(i), static_cast<Index>(j)) = slope;
+            slopes(static_cast<Index>(i), static_cast<Index>(i)) -= slope;
+        }
+    }
+    return slopes;
+}
+
 }  // namespace endoflow::boundary_integral

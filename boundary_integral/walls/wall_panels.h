@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "boundary_integral/operators/layer_block.h"
+#include "boundary_integral/operators/layer_target.h"
 #include "shared/numerics/gauss_legendre.h"
 #include "shared/parameters/parameters.h"
 
@@ -74,6 +74,8 @@ class WallPanels {
 
     /// Values at τ of the Lagrange polynomials through the panel's nodes.
     [[nodiscard]] std::vector<double> lagrange(const WallPanel& panel, double tau) const;
+    /// d(i, j): derivative by τ at node i of that of node j.
+    [[nodiscard]] Eigen::MatrixXd lagrange_slopes(const WallPanel& panel) const;
 
   private:
     std::vector<WallSegment> segments_;
@@ -82,15 +84,5 @@ class WallPanels {
     QuadratureRule rule_;
     std::vector<double> barycentric_;
 };
-
-struct WallTarget {
-    Target at;
-    TargetRows rows;
-    Index node = -1;  // when the target is a wall node
-};
-
-/// Rows of  Σ_k ν_k ∫_{wall k} u.T.m dS - ∫_band t.G dS  acting on the wall unknowns.
-[[nodiscard]] RowMatrix wall_layers(const WallPanels& walls, const std::vector<WallTarget>& targets, Index rows,
-                                    int threads = 1);
 
 }  // namespace endoflow::boundary_integral

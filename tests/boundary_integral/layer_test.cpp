@@ -6,7 +6,7 @@
 #include "boundary_integral/flow/dense_solver.h"
 #include "boundary_integral/operators/membrane_layers.h"
 #include "boundary_integral/quadrature/singular_rules.h"
-#include "boundary_integral/walls/wall_panels.h"
+#include "boundary_integral/walls/wall_layers.h"
 #include "curves.h"
 #include "stokes_reference.h"
 
@@ -30,7 +30,7 @@ DropMotion rising_drop(Index elements, double inner, double outer) {
         space, [](double x) { return std::sin(pi * x); }, [](double x) { return std::cos(pi * x); },
         [](double) { return 0.0; });
     const MembraneSamples samples = sample(space, state);
-    std::vector<MembraneTarget> targets;
+    std::vector<LayerTarget> targets;
     const auto add = [&](double xi, TargetRows rows) {
         const CurvePoint p = curve_point(space.radial().basis(xi), space.axial().basis(xi), state);
         targets.push_back({{p.r, p.z}, rows, xi});
@@ -46,7 +46,7 @@ DropMotion rising_drop(Index elements, double inner, double outer) {
     const Index rows = space.curve_count();
     const MembraneLayers layers = membrane_layers(space, state, samples, targets, rows, {});
     Eigen::MatrixXd matrix = (inner - outer) * layers.doubled;
-    for (const MembraneTarget& target : targets) {
+    for (const LayerTarget& target : targets) {
         const bool radial = target.rows.radial >= 0;
         const BasisRow basis = radial ? space.radial().basis(target.xi) : space.axial().basis(target.xi);
         for (std::size_t j = 0; j < 6; ++j) {
@@ -100,7 +100,7 @@ TEST_CASE("a target at the end of an element survives the round-off of its param
     for (const Index elements : {25, 49, 50, 98}) {
         const MembraneSpace space(elements, 8);
         const MembraneState state = bulge(space, 20);
-        std::vector<MembraneTarget> targets;
+        std::vector<LayerTarget> targets;
         Index row = 0;
         for (const double xi : space.radial_targets) {
             const CurvePoint p = curve_point(space.radial().basis(xi), space.axial().basis(xi), state);
@@ -125,22 +125,19 @@ TEST_CASE("rigid translation of the whole box satisfies the double-layer identit
     const MembraneState state = bulge(space, 40);
     const MembraneSamples samples = sample(space, state);
     const WallPanels walls(parameters.domain, parameters.fluid, 10);
-    std::vector<WallTarget> targets;
-    std::vector<MembraneTarget> seen;
+    std::vector<LayerTarget> targets;
     const auto& nodes = walls.nodes();
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const Index row = 2 * static_cast<Index>(i);
         const Index node = static_cast<Index>(i);
         if (walls.is_band(nodes[i])) continue;
-        targets.push_back({{nodes[i].r, nodes[i].z}, {row, row + 1}, node});
-        seen.push_back({{nodes[i].r, nodes[i].z}, {row, row + 1}, -1});
+        targets.push_back({{nodes[i].r, nodes[i].z}, {row, row + 1}, -1, node});
     }
     const Index wall_rows = walls.unknowns();
     Index row = wall_rows;
     for (const double xi : space.radial_targets) {
         const CurvePoint p = curve_point(space.radial().basis(xi), space.axial().basis(xi), state);
-        targets.push_back({{p.r, p.z}, {row, row + 1}, -1});
-        seen.push_back({{p.r, p.z}, {row, row + 1}, xi});
+        targets.push_back({{p.r, p.z}, {row, row + 1}, xi});
         row += 2;
     }
     Eigen::VectorXd wall_velocity = Eigen::VectorXd::Zero(wall_rows);
@@ -150,8 +147,9 @@ TEST_CASE("rigid translation of the whole box satisfies the double-layer identit
     Eigen::VectorXd membrane_velocity(space.curve_count());
     membrane_velocity << Eigen::VectorXd::Zero(space.radial_count()), Eigen::VectorXd::Ones(space.axial_count());
     Eigen::VectorXd residual = wall_layers(walls, targets, row) * wall_velocity;
-    residual += (below - above) * (membrane_layers(space, state, samples, seen, row, {}).doubled * membrane_velocity);
-    for (const WallTarget& target : targets) {
+    residual +=
+        (below - above) * (membrane_layers(space, state, samples, targets, row, {}).doubled * membrane_velocity);
+    for (const LayerTarget& target : targets) {
         residual[target.rows.axial] +=
             4 * pi *
             (target.node >= 0 ? walls.segments()[nodes[static_cast<std::size_t>(target.node)].segment].viscosity

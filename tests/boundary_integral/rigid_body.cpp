@@ -56,7 +56,7 @@ std::vector<Condition> conditions(const MembraneSpace& space, const std::vector<
 void add_layer(const MembraneSpace& space, const std::vector<Cap>& caps, std::size_t source,
                const std::vector<Condition>& targets, bool mirrored, double radial_sign, double axial_sign,
                Eigen::MatrixXd& matrix) {
-    std::vector<MembraneTarget> places;
+    std::vector<LayerTarget> places;
     for (const Condition& target : targets) {
         const double z = mirrored ? -target.point.z : target.point.z;
         places.push_back({{target.point.r, z}, target.rows, !mirrored && target.cap == source ? target.xi : -1});

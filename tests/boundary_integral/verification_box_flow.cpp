@@ -12,7 +12,7 @@
 
 #include "boundary_integral/flow/dense_solver.h"
 #include "boundary_integral/operators/membrane_layers.h"
-#include "boundary_integral/walls/wall_panels.h"
+#include "boundary_integral/walls/wall_layers.h"
 #include "curves.h"
 
 namespace {
@@ -82,15 +82,15 @@ Meridional prescribed_part(const WallPanels& walls, const Target& at) {
             const double r = sources.radius[i], z = sources.delta_z[i] + at.z;
             const double measure = 0.5 * (end - begin) * rule.weights[i] * segment.length() * r * segment.viscosity;
             const Meridional t = exact_traction(r, z, segment.normal_r, segment.normal_z);
-            sum.r += measure * t.r * kernels.g_rr[i];
-            sum.z += measure * t.r * kernels.g_zr[i];
+            sum.r += measure * t.r * kernels.single[0][0][i];
+            sum.z += measure * t.r * kernels.single[1][0][i];
             if (segment.kind == WallKind::free) {
-                sum.r += measure * t.z * kernels.g_rz[i];
-                sum.z += measure * t.z * kernels.g_zz[i];
+                sum.r += measure * t.z * kernels.single[0][1][i];
+                sum.z += measure * t.z * kernels.single[1][1][i];
             } else {
                 const double u_z = exact_velocity(r, z).z;
-                sum.r -= measure * u_z * kernels.t_rz[i];
-                sum.z -= measure * u_z * kernels.t_zz[i];
+                sum.r -= measure * u_z * kernels.doubled[0][1][i];
+                sum.z -= measure * u_z * kernels.doubled[1][1][i];
             }
         }
     };
@@ -122,25 +122,20 @@ struct Errors {
     double band_traction;                     // relative to the largest traction in the band, edges left out
 };
 
-struct Row {
-    MembraneTarget target;
-    Index node;  // of the wall, or -1
-};
-
-std::vector<Row> rows_of(const MembraneSpace& space, const MembraneState& state, const WallPanels& walls) {
-    std::vector<Row> rows;
+std::vector<LayerTarget> rows_of(const MembraneSpace& space, const MembraneState& state, const WallPanels& walls) {
+    std::vector<LayerTarget> rows;
     Index next = 0;
     const double last = 1 - 0.05 * space.element_width();  // as in the engine: beside the rim
     const auto add = [&](double xi, bool radial) {
         const double beside = std::min(xi, radial ? last : 0.5 * (1 + last));
         const CurvePoint p = curve_point(space.radial().basis(beside), space.axial().basis(beside), state);
-        rows.push_back({{{p.r, p.z}, radial ? TargetRows{next, -1} : TargetRows{-1, next}, beside}, -1});
+        rows.push_back({{p.r, p.z}, radial ? TargetRows{next, -1} : TargetRows{-1, next}, beside});
         ++next;
     };
     for (const double xi : space.radial().greville_points()) add(xi, true);
     for (const double xi : space.axial().greville_points()) add(xi, false);
     for (std::size_t i = 0; i < walls.nodes().size(); ++i) {
-        rows.push_back({{{walls.nodes()[i].r, walls.nodes()[i].z}, {next, next + 1}, -1}, static_cast<Index>(i)});
+        rows.push_back({{walls.nodes()[i].r, walls.nodes()[i].z}, {next, next + 1}, -1, static_cast<Index>(i)});
         next += 2;
     }
     return rows;
@@ -155,16 +150,10 @@ Errors solve(Index elements, int nodes_per_panel) {
     const WallPanels walls(parameters.domain, parameters.fluid, nodes_per_panel);
     const Index on_curve = space.curve_count(), unknowns = on_curve + walls.unknowns();
 
-    const std::vector<Row> rows = rows_of(space, state, walls);
-    std::vector<MembraneTarget> seen_by_membrane;
-    std::vector<WallTarget> seen_by_walls;
-    for (const Row& row : rows) {
-        seen_by_membrane.push_back(row.target);
-        seen_by_walls.push_back({row.target.at, row.target.rows, row.node});
-    }
-    const MembraneLayers membrane = membrane_layers(space, state, samples, seen_by_membrane, unknowns, {});
+    const std::vector<LayerTarget> rows = rows_of(space, state, walls);
+    const MembraneLayers membrane = membrane_layers(space, state, samples, rows, unknowns, {});
     Eigen::MatrixXd matrix(unknowns, unknowns);
-    matrix << (below - above) * membrane.doubled, wall_layers(walls, seen_by_walls, unknowns);
+    matrix << (below - above) * membrane.doubled, wall_layers(walls, rows, unknowns);
 
     Eigen::VectorXd force(space.force_count());
     const auto force_at = [&](double xi) {
@@ -176,14 +165,14 @@ Errors solve(Index elements, int nodes_per_panel) {
         spline_of(space.force(), [&](double xi) { return force_at(xi).z; });
     Eigen::VectorXd right = membrane.single * force;
 
-    for (const Row& row : rows) {
-        const auto [radial, axial] = row.target.rows;
-        const Meridional prescribed = prescribed_part(walls, row.target.at);
+    for (const LayerTarget& row : rows) {
+        const Index radial = row.rows.radial, axial = row.rows.axial;
+        const Meridional prescribed = prescribed_part(walls, row.at);
         if (radial >= 0) right[radial] += prescribed.r;
         if (axial >= 0) right[axial] += prescribed.z;
         if (row.node < 0) {
             const bool is_radial = radial >= 0;
-            const BasisRow basis = (is_radial ? space.radial() : space.axial()).basis(row.target.xi);
+            const BasisRow basis = (is_radial ? space.radial() : space.axial()).basis(row.xi);
             for (std::size_t j = 0; j < 6; ++j) {
                 matrix(is_radial ? radial : axial, (is_radial ? 0 : space.radial_count()) + basis.index[j]) +=
                     4 * pi * (below + above) * basis.value[0][j];
@@ -213,7 +202,7 @@ Errors solve(Index elements, int nodes_per_panel) {
             errors.membrane_velocity,
             std::hypot(space.radial_rows[i].evaluate(u_r) - exact.r, space.axial_rows[i].evaluate(u_z) - exact.z));
     }
-    for (const Row& row : rows) {
+    for (const LayerTarget& row : rows) {
         if (row.node < 0) continue;
         const WallNode& node = walls.nodes()[static_cast<std::size_t>(row.node)];
         const WallSegment& segment = walls.segments()[node.segment];

@@ -46,9 +46,9 @@ struct BudErrors {
 constexpr double vesicle_radius = 20;  // nm
 
 statics::VesicleState vesicle(double reduced_volume, statics::VesicleFamily family) {
-    const double beta = BendingModel(MembraneParameters{}).stiffness(0).value;
-    return statics::find_vesicle(
-        statics::with_reduced_volume({beta, 0, 4 * pi * vesicle_radius * vesicle_radius, 0}, reduced_volume), family);
+    // Without molecules it has no spontaneous curvature.
+    const statics::ClosedMembrane sphere(membrane_energy(Parameters{}), 0, 4 * pi * vesicle_radius * vesicle_radius, 0);
+    return statics::find_vesicle(statics::with_reduced_volume(sphere, reduced_volume), family);
 }
 
 // xi = u with x = sin^2(pi u/2) of the label x: r and z are smooth in it, with the parity of the splines at both poles.
@@ -60,14 +60,14 @@ VesicleErrors errors_of(const statics::VesicleState& exact, Index elements) {
         return statics::evaluate(exact.solution, rule, std::pow(std::sin(0.5 * pi * u), 2))(which);
     };
     const MembraneState state = state_of(
-        space, [&](double u) { return std::sqrt(std::max(at(u, statics::vesicle::r_squared), 0.0)); },
-        [&](double u) { return at(u, statics::vesicle::height); }, [](double) { return 0.0; });
+        space, [&](double u) { return std::sqrt(std::max(at(u, statics::state::r_squared), 0.0)); },
+        [&](double u) { return at(u, statics::state::height); }, [](double) { return 0.0; });
     const MembraneSamples samples = sample(space, state);
     const BendingModel model(parameters.membrane);
     const EnergyDerivatives energy = energy_derivatives(space, state, membrane_energy(parameters), Derivatives::first);
     const FreeSpaceFlow model_of_flow(parameters, space);
     const FlowSolution flow = model_of_flow.solve(model_of_flow.operators(state, samples), samples, energy, 0);
-    const double beta = exact.membrane.stiffness;
+    const double beta = exact.membrane.stiffness();
     const double speed = beta / (parameters.fluid.viscosity_intracellular * vesicle_radius * vesicle_radius);
     double tension = 0;
     for (const BasisRow& row : space.tension_rows)
