@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "phasefield/schemes/production/layer_weights.h"
+#include "phasefield/layer/weights.h"
 
 using namespace endoflow;
 using namespace endoflow::phasefield;

@@ -8,10 +8,10 @@
 
 #include "one_step.h"
 #include "phasefield/schemes/production/assembly.h"
-#include "phasefield/schemes/production/bdf.h"
 #include "phasefield/schemes/production/production_scheme.h"
 #include "run_steps.h"
 #include "shared/geometry/observables.h"
+#include "shared/numerics/bdf.h"
 #include "small_case.h"
 
 using namespace endoflow;

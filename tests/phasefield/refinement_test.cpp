@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "phasefield/schemes/production/layer_thickness.h"
+#include "phasefield/contour/layer_thickness.h"
 #include "phasefield/schemes/production/refinement.h"
 
 using namespace endoflow;

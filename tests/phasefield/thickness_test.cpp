@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "one_step.h"
-#include "phasefield/schemes/production/layer_thickness.h"
+#include "phasefield/contour/layer_thickness.h"
 #include "phasefield/schemes/production/point_equations.h"
 #include "run_steps.h"
 #include "shared/model/time_scale.h"

@@ -6,8 +6,8 @@
 
 #include "phasefield/fem/mesh_transfer.h"
 #include "phasefield/schemes/interface/diagnostics.h"
-#include "phasefield/schemes/production/bdf.h"
 #include "phasefield/schemes/production/bulk_equations.h"
+#include "shared/numerics/bdf.h"
 #include "shared/output/checkpoint.h"
 
 namespace endoflow::phasefield::production {

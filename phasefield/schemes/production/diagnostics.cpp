@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "phasefield/fem/reduction.h"
+#include "phasefield/layer/constants.h"
 #include "phasefield/schemes/production/assembly.h"
 #include "phasefield/schemes/production/cell_points.h"
-#include "phasefield/schemes/production/constants.h"
 
 namespace endoflow::phasefield::production {
 
@@ -28,7 +28,7 @@ struct PointState {
           epsilon(at.thickness.value),
           layer(layer_profile(x[distance].value, epsilon)),
           delta_E(energy_weight(x[distance].value, epsilon).value),
-          delta_Gamma(production::delta_Gamma(layer, step.weight)),
+          delta_Gamma(phasefield::delta_Gamma(layer, step.weight)),
           N(sheet_normal(x[distance], at.thickness).N_epsilon),
           along(along_sheet(x[molecule_density], N)),
           elastic(sheet_state(

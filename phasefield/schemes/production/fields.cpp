@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "phasefield/schemes/production/constants.h"
-#include "phasefield/schemes/production/layer_thickness.h"
+#include "phasefield/contour/layer_thickness.h"
+#include "phasefield/layer/constants.h"
 #include "shared/model/time_scale.h"
 
 namespace endoflow::phasefield::production {

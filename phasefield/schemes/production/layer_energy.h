@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "phasefield/schemes/production/layer_weights.h"
+#include "phasefield/layer/weights.h"
 #include "phasefield/schemes/production/point_geometry.h"
 #include "shared/model/membrane_energy.h"
 

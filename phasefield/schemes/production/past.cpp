@@ -10,9 +10,9 @@
 #include "phasefield/contour/closest_normal.h"
 #include "phasefield/contour/contour.h"
 #include "phasefield/fem/scalar_basis.h"
+#include "phasefield/layer/constants.h"
 #include "phasefield/schemes/production/assembly.h"
 #include "phasefield/schemes/production/cell_points.h"
-#include "phasefield/schemes/production/constants.h"
 
 namespace endoflow::phasefield::production {
 

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "phasefield/contour/layer_thickness.h"
+#include "phasefield/layer/constants.h"
 #include "phasefield/layer/profile.h"
-#include "phasefield/schemes/production/constants.h"
+#include "phasefield/layer/weights.h"
 #include "phasefield/schemes/production/fields.h"
-#include "phasefield/schemes/production/layer_thickness.h"
-#include "phasefield/schemes/production/layer_weights.h"
 #include "shared/model/bending_model.h"
 #include "shared/numerics/forward.h"
 

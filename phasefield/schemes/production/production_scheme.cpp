@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "phasefield/layer/boundary_flux.h"
+#include "phasefield/layer/constants.h"
 #include "phasefield/layer/initial_membrane.h"
-#include "phasefield/schemes/production/bdf.h"
-#include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/diagnostics.h"
 #include "phasefield/schemes/production/external_loads.h"
 #include "phasefield/schemes/production/refinement.h"
 #include "shared/model/time_scale.h"
+#include "shared/numerics/bdf.h"
 
 namespace endoflow::phasefield::production {
 
@@ -225,7 +225,7 @@ void ProductionScheme::reject(double time, double tau) {
 
 std::vector<NamedNumber> ProductionScheme::constants() const {
     std::vector<NamedNumber> out;
-    for (const auto& row : production::constants) out.push_back({std::string(row.name), row.value});
+    for (const auto& row : constant_table) out.push_back({std::string(row.name), row.value});
     return out;
 }
 

@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "phasefield/fem/mesh.h"
+#include "phasefield/layer/constants.h"
 #include "phasefield/schemes/interface/scheme.h"
 #include "phasefield/schemes/production/bulk_transport.h"
-#include "phasefield/schemes/production/constants.h"
 #include "phasefield/schemes/production/scheme_state.h"
 #include "phasefield/schemes/production/step_solver.h"
 

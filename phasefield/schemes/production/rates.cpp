@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "phasefield/schemes/production/constants.h"
+#include "phasefield/layer/constants.h"
 #include "shared/model/membrane_energy.h"
 #include "shared/model/time_scale.h"
 

@@ -5,9 +5,9 @@
 #include <numeric>
 #include <optional>
 
+#include "phasefield/contour/layer_thickness.h"
 #include "phasefield/fem/flow_domain.h"
-#include "phasefield/schemes/production/constants.h"
-#include "phasefield/schemes/production/layer_thickness.h"
+#include "phasefield/layer/constants.h"
 #include "phasefield/schemes/production/step_control.h"
 
 namespace endoflow::phasefield::production {

@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
+#include "phasefield/contour/layer_thickness.h"
 #include "phasefield/fem/space.h"
 #include "phasefield/schemes/interface/diagnostics.h"
-#include "phasefield/schemes/production/layer_thickness.h"
 #include "phasefield/schemes/production/step_control.h"
 #include "phasefield/schemes/production/step_numbers.h"
 #include "shared/geometry/membrane_curve.h"

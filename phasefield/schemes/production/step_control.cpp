@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "phasefield/schemes/production/constants.h"
+#include "phasefield/layer/constants.h"
 #include "shared/model/time_scale.h"
 #include "shared/support/error.h"
 

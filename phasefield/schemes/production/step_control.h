@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "phasefield/schemes/production/constants.h"
+#include "phasefield/layer/constants.h"
 #include "shared/parameters/parameters.h"
 
 namespace endoflow::phasefield::production {

@@ -1,6 +1,6 @@
 #include "phasefield/schemes/production/step_factors.h"
 
-#include "phasefield/schemes/production/constants.h"
+#include "phasefield/layer/constants.h"
 #include "phasefield/schemes/production/diagnostics.h"
 
 namespace endoflow::phasefield::production {

@@ -5,11 +5,11 @@
 #include <limits>
 #include <memory>
 
+#include "phasefield/contour/layer_thickness.h"
+#include "phasefield/contour/pole_force.h"
+#include "phasefield/layer/constants.h"
+#include "phasefield/layer/membrane_weight.h"
 #include "phasefield/schemes/production/bulk_supply.h"
-#include "phasefield/schemes/production/constants.h"
-#include "phasefield/schemes/production/layer_thickness.h"
-#include "phasefield/schemes/production/membrane_weight.h"
-#include "phasefield/schemes/production/pole_force.h"
 #include "phasefield/schemes/production/rates.h"
 #include "shared/model/exchange.h"
 #include "shared/model/loads.h"

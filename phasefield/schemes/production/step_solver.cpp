@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "phasefield/fem/interruption.h"
-#include "phasefield/schemes/production/constants.h"
+#include "phasefield/layer/constants.h"
 #include "phasefield/schemes/production/diagnostics.h"
 #include "phasefield/solver/anderson.h"
 #include "shared/support/error.h"

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace endoflow::phasefield::production {
+namespace endoflow {
 
 /// Backward differentiation on uneven steps. Past times come newest first.
 
@@ -41,4 +41,4 @@ inline double error_fraction(double time, const std::vector<double>& times, std:
     return lag / (lag + time - times[order]);
 }
 
-}  // namespace endoflow::phasefield::production
+}  // namespace endoflow

@@ -1,11 +1,11 @@
-#include "phasefield/schemes/production/pole_force.h"
+#include "phasefield/contour/pole_force.h"
 
 #include <cmath>
 #include <numbers>
 
 #include "phasefield/contour/polyline.h"
 
-namespace endoflow::phasefield::production {
+namespace endoflow::phasefield {
 
 PoleForce::PoleForce(const MembraneCurve& membrane, const Loads& loads)
     : loads_(loads), r_(membrane.r), z_(membrane.z) {
@@ -19,4 +19,4 @@ double PoleForce::at(double r, double z) const {
     return loads_.pole_force * loads_.force_share(at_closest_point(r_, z_, area_, r, z));
 }
 
-}  // namespace endoflow::phasefield::production
+}  // namespace endoflow::phasefield

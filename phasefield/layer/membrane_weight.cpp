@@ -1,4 +1,4 @@
-#include "phasefield/schemes/production/membrane_weight.h"
+#include "phasefield/layer/membrane_weight.h"
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
@@ -9,7 +9,7 @@
 
 #include "shared/numerics/root.h"
 
-namespace endoflow::phasefield::production {
+namespace endoflow::phasefield {
 
 namespace {
 
@@ -175,4 +175,4 @@ MembraneWeight membrane_weight(const FluidParameters& fluid, ViscosityMean mean)
     return weight;
 }
 
-}  // namespace endoflow::phasefield::production
+}  // namespace endoflow::phasefield

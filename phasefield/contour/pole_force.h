@@ -5,7 +5,7 @@
 #include "shared/geometry/membrane_curve.h"
 #include "shared/model/loads.h"
 
-namespace endoflow::phasefield::production {
+namespace endoflow::phasefield {
 
 /// The pole force per area as data of a step, as the layer's thickness is: it rides on the material, whose label is the
 /// area from the pole along the membrane as it is predicted for the end of the step.
@@ -21,4 +21,4 @@ class PoleForce {
     std::vector<double> r_, z_, area_;  // [nm, nm²]
 };
 
-}  // namespace endoflow::phasefield::production
+}  // namespace endoflow::phasefield

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "phasefield/schemes/production/constants.h"
+#include "phasefield/layer/constants.h"
 #include "shared/parameters/parameters.h"
 
-namespace endoflow::phasefield::production {
+namespace endoflow::phasefield {
 
 /// The weight δ_Γ = δ (w₀ + w₂ φ² + w₄ φ⁴) of what lives on the membrane, w₀ = 1 − w₂/5 − 3w₄/35: ∫δ_Γ dψ = 1.
 struct MembraneWeight {
@@ -77,4 +77,4 @@ ExcessShear excess_shear(const MembraneWeight& weight, const FluidParameters& fl
 /// fluidity stays above half the smaller one.
 MembraneWeight membrane_weight(const FluidParameters& fluid, ViscosityMean mean);
 
-}  // namespace endoflow::phasefield::production
+}  // namespace endoflow::phasefield

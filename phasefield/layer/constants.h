@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace endoflow::phasefield::production {
+namespace endoflow::phasefield {
 
 /// A number of the scheme that is no parameter: docs/phase-field.md says what happens where some of them change.
 struct Constant {
@@ -14,7 +14,7 @@ struct Constant {
 };
 
 /// All of them; the files that use one take it from here by constant(), and run.json lists them.
-inline constexpr Constant constants[] = {
+inline constexpr Constant constant_table[] = {
     // The equations
     {"tail_cut", 1e-3, "max δ",
      "f of the energy's weight δ²/(δ + f): 4 ε from the membrane normals may cross, and the last solution's take over"},
@@ -99,7 +99,7 @@ inline constexpr Constant constants[] = {
 
 /// The value of a constant; asked at compile time, where a name that is not in the table does not compile.
 consteval double constant(std::string_view name) {
-    for (const auto& row : constants)
+    for (const auto& row : constant_table)
         if (row.name == name) return row.value;
     throw std::logic_error("no such constant");
 }
@@ -109,4 +109,4 @@ consteval unsigned int count(std::string_view name) {
     return static_cast<unsigned int>(constant(name));
 }
 
-}  // namespace endoflow::phasefield::production
+}  // namespace endoflow::phasefield

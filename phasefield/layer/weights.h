@@ -4,12 +4,12 @@
 #include <cmath>
 #include <complex>
 
+#include "phasefield/layer/constants.h"
+#include "phasefield/layer/membrane_weight.h"
 #include "phasefield/layer/profile.h"
-#include "phasefield/schemes/production/constants.h"
-#include "phasefield/schemes/production/membrane_weight.h"
 #include "shared/numerics/forward.h"
 
-namespace endoflow::phasefield::production {
+namespace endoflow::phasefield {
 
 // Functions of ψ across the layer: its profile, the membrane's weight δ_Γ and its integral H_Γ, the energy's weight
 // δ_E.
@@ -95,4 +95,4 @@ EnergyWeight<Number> energy_weight(const Number& psi, double epsilon) {
     return energy_weight(psi, epsilon, ScaledEnergyWeight(value_of(layer_profile(psi, epsilon).phi)));
 }
 
-}  // namespace endoflow::phasefield::production
+}  // namespace endoflow::phasefield

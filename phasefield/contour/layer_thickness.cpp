@@ -1,4 +1,4 @@
-#include "phasefield/schemes/production/layer_thickness.h"
+#include "phasefield/contour/layer_thickness.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -13,11 +13,11 @@
 #include <utility>
 
 #include "phasefield/contour/closest_value.h"
-#include "phasefield/schemes/production/constants.h"
+#include "phasefield/layer/constants.h"
 #include "shared/geometry/axisymmetric_spline.h"
 #include "shared/model/time_scale.h"
 
-namespace endoflow::phasefield::production {
+namespace endoflow::phasefield {
 
 namespace {
 
@@ -191,4 +191,4 @@ std::shared_ptr<const CellThickness> thickness_on(const dealii::Triangulation<2>
     return curve.r.empty() ? nullptr : std::make_shared<const CellThickness>(std::move(curve), mesh);
 }
 
-}  // namespace endoflow::phasefield::production
+}  // namespace endoflow::phasefield

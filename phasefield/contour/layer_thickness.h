@@ -9,7 +9,7 @@
 #include "shared/geometry/membrane_curve.h"
 #include "shared/parameters/parameters.h"
 
-namespace endoflow::phasefield::production {
+namespace endoflow::phasefield {
 
 /// ε at a point and its gradient.
 struct PointThickness {
@@ -72,4 +72,4 @@ class CellThickness {
 /// The layer's thickness on a mesh; nothing for an empty curve: uniform.
 std::shared_ptr<const CellThickness> thickness_on(const dealii::Triangulation<2>& mesh, ThicknessCurve curve);
 
-}  // namespace endoflow::phasefield::production
+}  // namespace endoflow::phasefield

@@ -1,0 +1,33 @@
+#include "phasefield/checkpoint/mesh_checkpoint.h"
+#include "phasefield/fem/mesh_transfer.h"
+#include "phasefield/schemes/production/production_scheme.h"
+#include "shared/output/checkpoint_archive.h"
+
+namespace endoflow::phasefield::production {
+
+void ProductionScheme::save(const std::filesystem::path& directory, Checkpoint& checkpoint) {
+    ThicknessCurve curve = state_.thickness ? state_.thickness->curve() : ThicknessCurve();
+    const CheckpointWriter writer(checkpoint);
+    state_.serialize(writer, curve);
+    solver_.serialize(writer);
+    make_empty_directory(directory, mesh_->get_communicator());
+    const auto transfer = MeshTransfer::for_saving(space_, state_.solutions);
+    if (bulk_) bulk_->save(checkpoint);
+    mesh_->save((directory / "mesh").string());
+    MPI_Barrier(mesh_->get_communicator());
+}
+
+StepOutcome ProductionScheme::load(const std::filesystem::path& directory, const Checkpoint& checkpoint) {
+    ThicknessCurve curve;
+    const CheckpointReader reader(checkpoint);
+    state_.serialize(reader, curve);
+    solver_.serialize(reader);
+    load_mesh(directory, *mesh_);
+    renew();
+    state_.thickness = thickness_on(*mesh_, std::move(curve));
+    state_.solutions = MeshTransfer::loaded(space_, state_.times.size());
+    if (bulk_) bulk_->load(checkpoint);
+    return present();
+}
+
+}  // namespace endoflow::phasefield::production
