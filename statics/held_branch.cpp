@@ -20,6 +20,10 @@ constexpr double developed = 0.8;
 /// Spontaneous curvature, in units of the case's, up to which the membrane may form a neck of its own.
 constexpr double most_curvature = 4;
 
+/// A branch that has folded is followed until the neck is this many times as wide (narrow, when it is widened) as it
+/// was, for it may fold again.
+constexpr double furthest_return = 2;
+
 /// Both meridians are off the axis but for the bud's apex.
 bool off_the_axis(const PiecewiseSolution& solution) {
     const Eigen::Index n = solution.nodes.rows() / 2;
@@ -156,12 +160,15 @@ HeldBranch follow_radius(const HeldState& from, double end, const HeldVisitor& v
     if (!start)
         throw SolverError("no-held-neck", fmt::format("Newton's method failed at a neck of {:.6g} nm", begin), remedy);
     HeldBranch result{{*start, {}, BranchEnd::stopped}, {}, begin};
+    double nearest = begin;  // to the end that the branch has come
     const auto look = [&](const BranchPoint& point) {
         const HeldState here{path(point.solution.parameter), point};
         result.fault = fault_of(here.held, point.solution, rule);
         if (result.fault) return false;
-        result.last_radius = here.held.radius;
-        return visit(here);
+        const double radius = result.last_radius = here.held.radius;
+        nearest = end < begin ? std::min(nearest, radius) : std::max(nearest, radius);
+        const double returned = end < begin ? radius / nearest : nearest / radius;
+        return visit(here) && returned < furthest_return;
     };
     result.branch = follow_branch(problem, rule, *start, end, {}, off_the_axis, look);
     return result;

@@ -60,7 +60,7 @@ ExitReason simulate_hold(const Parameters& parameters, const Request& request, R
     output.note("molecules", molecules_are_frozen(parameters) ? "frozen in the material" : "in equilibrium");
     output.note("molecule_mass", request.disc_mass ? "of a disc of the patch radius" : "of the initial profile");
 
-    NeckWork work;
+    NeckWork work(hold.end);
     HeldState last = first;
     const auto write = [&](const HeldState& state) {
         const GaussRule rule(request.resolution.points);

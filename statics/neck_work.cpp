@@ -66,6 +66,9 @@ double NeckWork::to(const HeldState& next) {
 }
 
 void NeckWork::pass(double work, double radius) {
+    const double distance = std::abs(radius - end_);
+    if (distance > nearest_) return;
+    nearest_ = distance;
     if (work < least_work_) {
         least_work_ = work;
         least_radius_ = radius;

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "statics/held_branch.h"
 
 namespace endoflow::statics {
 
-/// The highest rise of the work on a way: what has to be brought to go it, pN nm.
+/// The highest rise of the work on the way to a radius, among shapes that are nearer to it than all before: between the
+/// folds of a branch a collar that sets the radius jumps.
 struct Barrier {
     double height = 0;                  // pN nm
     double from_radius, to_radius = 0;  // where the rise begins and where it is that high, nm
@@ -17,6 +19,9 @@ struct Barrier {
 /// frozen in the material, the work is the difference of 𝒢.
 class NeckWork {
   public:
+    /// `end`: the radius to which the branch goes, nm.
+    explicit NeckWork(double end) : end_(end) {}
+
     /// The work to the next shape, pN nm.
     double to(const HeldState& next);
 
@@ -30,6 +35,7 @@ class NeckWork {
     };
 
     std::optional<Point> last_;
+    double end_, nearest_ = std::numeric_limits<double>::infinity();
     double work_ = 0, least_work_ = 0, least_radius_ = 0, least_force_ = 0;
     Barrier barrier_{};
 

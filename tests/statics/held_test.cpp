@@ -125,7 +125,7 @@ TEST_CASE("the work along a branch is the rise of G, and begins at the free neck
     const HeldState widest = widest_held(find_held_neck(coat(22, Transport::advection)));
     CHECK(widest.held.radius > 14.9);
     const double begin = potential_of(widest);
-    NeckWork work;
+    NeckWork work(3);
     double worst = 0;
     const auto visit = [&](const HeldState& state) {
         worst = std::max(worst, std::abs(work.to(state) - (potential_of(state) - begin)));
