@@ -29,9 +29,9 @@ ImplicitStages make_stages() {
     constexpr double b2 = (second - first * node[2]) / (node[1] * (node[1] - node[2]));
     constexpr double b3 = (second - first * node[1]) / (node[2] * (node[2] - node[1]));
     constexpr double b1 = 1.0 - b2 - b3 - diagonal;
-    constexpr std::array<double, 4> embedded = {
-        2756255671327.0 / 12835298489170.0, -10771552573575.0 / 22201958757719.0, 9247589265047.0 / 10645013368117.0,
-        2193209047091.0 / 5459859503100.0};
+    constexpr std::array<double, 4> embedded = {2756255671327.0 / 12835298489170.0,
+                                                -10771552573575.0 / 22201958757719.0,
+                                                9247589265047.0 / 10645013368117.0, 2193209047091.0 / 5459859503100.0};
     return {diagonal,
             node,
             {{{0, 0, 0}, {diagonal, 0, 0}, {node[2] - middle - diagonal, middle, 0}, {b1, b2, b3}}},
@@ -50,8 +50,9 @@ double ratio(const Eigen::MatrixXd& error, const Eigen::MatrixXd& value) {
     return size == 0.0 ? 0.0 : size / value.norm();
 }
 
-// One step of one system. Stages X_i - h gamma (L_i X_i + X_i L_i^T) = G + h sum_{j < i} a_ij K_j + h gamma D_i, and the
-// like of F. In the estimates what decays within the step has no part: they are solutions for such right-hand sides, too.
+// One step of one system. Stages X_i - h gamma (L_i X_i + X_i L_i^T) = G + h sum_{j < i} a_ij K_j + h gamma D_i, and
+// the like of F. In the estimates what decays within the step has no part: they are solutions for such right-hand
+// sides, too.
 CovarianceTrial covariance_step(double h, const Covariance& start, const Covariance& slope,
                                 const std::array<const NoisyRate*, 3>& stage) {
     const double implicit = h * sdirk.diagonal;
@@ -89,7 +90,8 @@ CovarianceTrial covariance_step(double h, const Covariance& start, const Covaria
 
 }  // namespace
 
-CovariancePropagation::CovariancePropagation(Rates rates, double begin, std::vector<Covariance> start, double first_step, double tolerance, int threads)
+CovariancePropagation::CovariancePropagation(Rates rates, double begin, std::vector<Covariance> start,
+                                             double first_step, double tolerance, int threads)
     : rates_(std::move(rates)),
       time_(begin),
       tolerance_(tolerance),
@@ -111,18 +113,19 @@ void CovariancePropagation::advance(double end, const std::function<void()>& aft
 }
 
 bool CovariancePropagation::attempt(const StepControl::Step& step) {
-    const std::array<std::vector<NoisyRate>, 3> stages = {rates_(time_ + sdirk.node[1] * step.length),
-                                                          rates_(time_ + sdirk.node[2] * step.length),
-                                                          rates_(step.end)};
+    const std::array<std::vector<NoisyRate>, 3> stages = {
+        rates_(time_ + sdirk.node[1] * step.length), rates_(time_ + sdirk.node[2] * step.length), rates_(step.end)};
     std::vector<CovarianceTrial> trials(values_.size());
     parallel_parts(static_cast<Eigen::Index>(values_.size()), threads_, [&](Eigen::Index begin, Eigen::Index stop) {
         for (Eigen::Index k = begin; k < stop; ++k) {
             const auto i = static_cast<std::size_t>(k);
-            trials[i] = covariance_step(step.length, values_[i], slopes_[i], {&stages[0][i], &stages[1][i], &stages[2][i]});
+            trials[i] =
+                covariance_step(step.length, values_[i], slopes_[i], {&stages[0][i], &stages[1][i], &stages[2][i]});
         }
     });
     double error = 0.0;
-    for (const CovarianceTrial& trial : trials) error = trial.error <= error ? error : trial.error;  // keeps what is no number
+    for (const CovarianceTrial& trial : trials)
+        error = trial.error <= error ? error : trial.error;  // keeps what is no number
     if (!control_.accepts(step, error / tolerance_)) return false;
     for (std::size_t i = 0; i < trials.size(); ++i) {
         values_[i] = std::move(trials[i].value);

@@ -33,12 +33,13 @@ class CovariancePropagation {
 
     /// The estimated error of a step, in the Frobenius norms of root G root^T and root F, is held below `tolerance`
     /// times that of Sigma and F. `first_step` in µs.
-    CovariancePropagation(Rates rates, double begin, std::vector<Covariance> start, double first_step,
-                          double tolerance, int threads = 1);
+    CovariancePropagation(Rates rates, double begin, std::vector<Covariance> start, double first_step, double tolerance,
+                          int threads = 1);
 
     /// Steps to the time `end`, which the last one meets; `after_step` is called after each. Throws
     /// SolverError("modes-step-underflow").
-    void advance(double end, const std::function<void()>& after_step = [] {});
+    void advance(
+        double end, const std::function<void()>& after_step = [] {});
 
     [[nodiscard]] double time() const { return time_; }
     [[nodiscard]] const std::vector<Covariance>& values() const { return values_; }

@@ -11,10 +11,9 @@ LyapunovSolver::LyapunovSolver(const Eigen::MatrixXd& matrix)
     const int n = static_cast<int>(matrix.rows());
     int sorted = 0;
     Eigen::VectorXd real(n), imaginary(n);
-    const int info = matrix.allFinite()
-                         ? LAPACKE_dgees(LAPACK_COL_MAJOR, 'V', 'N', nullptr, n, triangular_.data(), n, &sorted,
-                                         real.data(), imaginary.data(), vectors_.data(), n)
-                         : -1;
+    const int info = matrix.allFinite() ? LAPACKE_dgees(LAPACK_COL_MAJOR, 'V', 'N', nullptr, n, triangular_.data(), n,
+                                                        &sorted, real.data(), imaginary.data(), vectors_.data(), n)
+                                        : -1;
     if (info != 0) {
         throw SolverError("no-schur-form", "the rates of a mode have no Schur form", "use more elements in the run");
     }

@@ -90,8 +90,7 @@ Spread NoiseGrowth::spread(const NoisyQuantity& quantity) const {
     const Covariance& covariance = propagation_.values()[static_cast<std::size_t>(quantity.mode)];
     const Index w = quantity.row.size();
     const double inherited = (quantity.row * covariance.inherited_root.topRows(w)).norm();
-    const double gathered =
-        (quantity.row * covariance.gathered.topLeftCorner(w, w) * quantity.row.transpose()).value();
+    const double gathered = (quantity.row * covariance.gathered.topLeftCorner(w, w) * quantity.row.transpose()).value();
     return spread_of(inherited, gathered);
 }
 
@@ -106,9 +105,12 @@ NoisyShape NoiseGrowth::shape() const {
     if (!neck) return result;
     const BasePoint at_neck = base_point(space, base, surroundings.viscosities(), neck->t);
     const BudQuantities bud = bud_quantities(surroundings, base, *neck);
-    result.bud = {neck->radius,         at_neck.u_n * at_neck.curve.normal_r,
-                  spread(bud.neck),     spread(bud.sideways),
-                  spread(bud.ellipticity), spread(bud.neck_ellipticity)};
+    result.bud = {neck->radius,
+                  at_neck.u_n * at_neck.curve.normal_r,
+                  spread(bud.neck),
+                  spread(bud.sideways),
+                  spread(bud.ellipticity),
+                  spread(bud.neck_ellipticity)};
     return result;
 }
 

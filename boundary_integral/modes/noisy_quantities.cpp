@@ -55,8 +55,7 @@ BudQuantities bud_quantities(const Surroundings& surroundings, const BaseState& 
     };
     // x = r cos phi, dV = w cos(m phi) dA on the displaced surface; int cos^2 = pi is left out on both sides.
     const double volume = std::abs(weights([](const CurvePoint& p) { return p.r * p.r * p.z1; }).sum());
-    const double moment =
-        std::abs(weights([](const CurvePoint& p) { return 0.5 * std::pow(p.r, 4) * p.z1; }).sum());
+    const double moment = std::abs(weights([](const CurvePoint& p) { return 0.5 * std::pow(p.r, 4) * p.z1; }).sum());
     const Eigen::RowVectorXd first = weights([](const CurvePoint& p) { return p.r * p.r * p.g; });
     const Eigen::RowVectorXd second = weights([](const CurvePoint& p) { return p.r * p.r * p.r * p.g; });
     const double normal_r =

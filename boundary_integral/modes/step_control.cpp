@@ -24,9 +24,9 @@ StepControl::Step StepControl::next(double time, double end) const {
 }
 
 bool StepControl::accepts(const Step& step, double error) {
-    const double factor = error >= 0.0 ? std::clamp(safety * std::pow(error, -1.0 / (order_ + 1)), smallest_factor,
-                                                    largest_factor)
-                                       : smallest_factor;
+    const double factor =
+        error >= 0.0 ? std::clamp(safety * std::pow(error, -1.0 / (order_ + 1)), smallest_factor, largest_factor)
+                     : smallest_factor;
     const bool accepted = error <= 1.0;
     if (!accepted)
         length_ = step.length * std::min(factor, safety);

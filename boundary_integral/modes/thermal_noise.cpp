@@ -58,8 +58,7 @@ BaseState flat_bare_membrane(const MembraneSpace& space, const MembraneState& st
                      Eigen::VectorXd::Zero(heights)};
     base.velocity = Eigen::VectorXd::Zero(space.curve_count());
     base.force = base.traction_sum = Eigen::VectorXd::Zero(space.force_count());
-    base.multipliers.tension =
-        Eigen::VectorXd::Constant(space.tension().dimension(), parameters.membrane.rim_tension);
+    base.multipliers.tension = Eigen::VectorXd::Constant(space.tension().dimension(), parameters.membrane.rim_tension);
     return base;
 }
 
