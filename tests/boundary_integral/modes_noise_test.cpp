@@ -1,5 +1,6 @@
 // Thermal noise: equipartition of what has equilibrium, reciprocity of what moves it, covariances in time.
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
@@ -9,6 +10,7 @@
 
 #include "boundary_integral/modes/covariance_propagation.h"
 #include "boundary_integral/modes/linearised_membrane.h"
+#include "boundary_integral/modes/noisy_quantities.h"
 #include "boundary_integral/modes/perturbations.h"
 #include "boundary_integral/modes/thermal_noise.h"
 #include "curves.h"
@@ -86,9 +88,8 @@ struct ClampedPlate {
 BasePoints flat_points(const Parameters& parameters, const MembraneSpace& space) {
     MembraneState state;
     state.r = spline_of(space.radial(), [&](double x) { return parameters.domain.radius * x; });
-    return base_points(
-        space, flat_bare_membrane(space, state, parameters), membrane_energy(parameters),
-        {parameters.fluid.viscosity_extracellular, parameters.fluid.viscosity_intracellular});
+    return base_points(space, flat_bare_membrane(space, state, parameters), membrane_energy(parameters),
+                       {parameters.fluid.viscosity_extracellular, parameters.fluid.viscosity_intracellular});
 }
 
 // M on displacements in the inner product of w: |w|^2 = int w^2 dA/pi.
@@ -144,8 +145,8 @@ TEST_CASE("equipartition in the pinned disc: every mode of the flat membrane has
         const ClampedPlate plate{mode, radius, sigma / beta};
         for (const double k : plate.wave_numbers(20)) {
             const double expected = thermal_energy / (beta * std::pow(k, 4) + sigma * k * k);
-            const double found =
-                variance(space, points, [&](double x) { return plate.shape(k, radius * x); }, covariance);
+            const double found = variance(
+                space, points, [&](double x) { return plate.shape(k, radius * x); }, covariance);
             CAPTURE(sigma, mode, k, found / expected - 1);
             // Quintic splines, k h < 0.75: eigenvalues are exact to (k h)^8 times a small number.
             CHECK(found == Approx(expected).epsilon(1e-6));
@@ -294,14 +295,40 @@ TEST_CASE("a nearly spherical vesicle fluctuates as Milner and Safran have it, a
     }
 }
 
+TEST_CASE("a bud that is moved, or flattened, is so by as much", "[modes]") {
+    // A sphere above the plane where three quarters of its meridian end.
+    const Parameters parameters = vesicle_parameters(1e-3, 1e-2);
+    const MembraneSpace space(32, 8, CurveEnd::closed);
+    const Surroundings surroundings(parameters, space, 2);
+    BaseState base = sphere_at_rest(space, BendingModel(parameters.membrane), 0);
+    base.traction_sum = Eigen::VectorXd::Zero(space.force_count());
+    const double end = 0.76, radius = sphere_radius * std::sin(pi * end);
+    const BudQuantities bud = bud_quantities(surroundings, base, {radius, 2 * sphere_radius, end});
+    const auto change = [&](const NoisyQuantity& quantity, const Profile& w) {
+        const ModeSpace& mode = surroundings.space(quantity.mode);
+        const Eigen::MatrixXd expansion = mode.displacement_expansion();
+        const Eigen::VectorXd free =
+            (expansion.transpose() * expansion).ldlt().solve(expansion.transpose() * spline_of(mode.vertical(), w));
+        return quantity.row.dot(free);
+    };
+    // n_r = sin(theta); x (1 + e), y (1 - e) is w = e r n_r cos 2 phi. Splines of 32 elements: 1e-7.
+    CHECK(change(bud.sideways, [](double x) { return std::sin(pi * x); }) == Approx(1).epsilon(1e-6));
+    CHECK(change(bud.ellipticity, [](double x) { return 0.1 * sphere_radius * std::pow(std::sin(pi * x), 2); }) ==
+          Approx(0.1).epsilon(1e-6));
+    // Where the meridian is vertical: the equator as a neck.
+    const BudQuantities ring = bud_quantities(surroundings, base, {sphere_radius, 2 * sphere_radius, 0.5});
+    CHECK(change(ring.neck, [](double) { return 0.3; }) == Approx(0.3).epsilon(1e-9));
+    CHECK(change(ring.neck_ellipticity, [](double x) { return 0.3 * std::pow(std::sin(pi * x), 2); }) ==
+          Approx(0.3 / sphere_radius).epsilon(1e-6));
+    CHECK(change(pole_height(surroundings, base), [](double) { return 0.3; }) == Approx(0.3).epsilon(1e-9));
+}
+
 namespace {
 
 // Sigma = R(t) diag(..) R(t)^T with a rotation by the angle sin 2t.
 struct NoisyRotation {
     double a, b, noise;
-    static Eigen::Matrix2d rotation(double t) {
-        return Eigen::Rotation2Dd(std::sin(2 * t)).toRotationMatrix();
-    }
+    static Eigen::Matrix2d rotation(double t) { return Eigen::Rotation2Dd(std::sin(2 * t)).toRotationMatrix(); }
     [[nodiscard]] std::vector<NoisyRate> operator()(double t) const {
         Eigen::Matrix2d spin;
         spin << 0, -1, 1, 0;

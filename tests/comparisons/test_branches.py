@@ -95,7 +95,7 @@ class ReadOff(unittest.TestCase):
             result = collar.result({}, True)
         self.assertEqual(result.printed[0].ours[""], "15 to 3 nm: 100 k_BT from 13 to 3 nm, 100 pN at most")
         self.assertIn("none, the neck closes by itself and pulls with 60 pN", result.printed[1].ours[""])
-        self.assertEqual([row["work_kT"] for row in result.rows[:3]], [0.0, 10.0, 100.0])
+        np.testing.assert_allclose([row["work_kT"] for row in result.rows[:3]], [0, 10, 100], rtol=1e-14)
         with mock.patch.object(collar, "held", side_effect=[StudyError("no-held-neck: none", 3), found[0]]):
             self.assertEqual(collar.result({}, True).printed[0].ours[""], "no-held-neck: none")
 
