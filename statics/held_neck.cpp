@@ -146,10 +146,6 @@ PiecewiseSolution cut_at_neck(const PiecewiseSolution& solution, const GaussRule
                               std::size_t elements) {
     std::vector<double> mesh;
     for (std::size_t i = 0; i <= elements; ++i) mesh.push_back(static_cast<double>(i) / static_cast<double>(elements));
-    const auto slope_at = [&](double x) -> Eigen::VectorXd {
-        const std::size_t i = solution.element_of(x);
-        return solution.slopes[i] * rule.values((x - solution.mesh[i]) / solution.width(i));
-    };
     const auto both = [](const Eigen::VectorXd& bud, const Eigen::VectorXd& outer) {
         Eigen::VectorXd result(bud.size() + outer.size());
         result << bud, outer;
@@ -159,7 +155,7 @@ PiecewiseSolution cut_at_neck(const PiecewiseSolution& solution, const GaussRule
         return both(evaluate(solution, rule, x_n * x), evaluate(solution, rule, 1 - (1 - x_n) * x));
     };
     const auto slopes = [&](double x) {
-        return both(x_n * slope_at(x_n * x), -(1 - x_n) * slope_at(1 - (1 - x_n) * x));
+        return both(x_n * slope_at(solution, rule, x_n * x), -(1 - x_n) * slope_at(solution, rule, 1 - (1 - x_n) * x));
     };
     Eigen::VectorXd globals = Eigen::VectorXd::Zero(solution.globals.size() + 2);
     globals(held_global::area) = solution.globals(global::area);

@@ -92,9 +92,9 @@ def cards(noise):
         note = f"one standard deviation, σ(neck)/|dn/dt| at {noise.budding:.4g} µs and {noise.temperature:g} K"
         found.append(("Spread of the budding time", quantity(noise.budding_spread, 3, "µs"), note))
     if np.isfinite(noise.table["neck_rms_nm"]).any():
-        value = None if noise.linear_until is None else noise.linear_until
-        note = "the neck's spread is a third of its radius" if value is not None else "the neck's spread stays below a third"
-        found.append(("Linear noise ends", quantity(value, 3, "µs"), note))
+        never = noise.linear_until is None
+        note = "the neck's spread stays below a third" if never else "the neck's spread is a third of its radius"
+        found.append(("Linear noise ends", quantity(noise.linear_until, 3, "µs"), note))
     return found
 
 

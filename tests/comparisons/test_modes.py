@@ -27,6 +27,18 @@ def growth(mode, time):
     return (1.5 if mode == 1 else -mode) * (1 - 0.3 * time)
 
 
+def write_meridian(file, number, time):
+    """A time's group (h5py) with its membrane; its r and z, nm."""
+    r, z, _ = synthetic.budding_membrane(time, 1.0).curve(400)
+    slope_r, slope_z = np.gradient(r), np.gradient(z)
+    length = np.hypot(slope_r, slope_z)
+    group = file.create_group(f"times/{number:06d}")
+    group.attrs["time"] = time
+    for name, values in {"r": r, "z": z, "normal_r": -slope_z / length, "normal_z": slope_r / length}.items():
+        group[name] = values
+    return group, r, z
+
+
 def write_tables(directory):
     """What endoflow-modes writes: w = sin(π s/L)^m, its amplitude 0.1 nm e^{−m t}."""
     rates = ["time_us,mode,rank,growth_per_us,frequency_rad_per_us,peak_r_nm,peak_z_nm"]
@@ -34,15 +46,8 @@ def write_tables(directory):
     with h5py.File(directory / "eigenshapes.h5", "w") as file:
         file.create_group("times").attrs["budding_us"] = BUDDING
         for number, time in enumerate(TIMES):
-            membrane = synthetic.budding_membrane(time, 1.0)
-            r, z, _ = membrane.curve(400)
-            slope_r, slope_z = np.gradient(r), np.gradient(z)
-            length = np.hypot(slope_r, slope_z)
-            group = file.create_group(f"times/{number:06d}")
-            group.attrs["time"] = time
-            base = {"r": r, "z": z, "normal_r": -slope_z / length, "normal_z": slope_r / length}
-            for name, values in {**base, "c": synthetic.concentration(r, z)}.items():
-                group[name] = values
+            group, r, z = write_meridian(file, number, time)
+            group["c"] = synthetic.concentration(r, z)
             for m in ORDERS:
                 w = np.sin(np.pi * np.linspace(0, 1, len(r))) ** m
                 mode = group.create_group(f"mode_{m}")
@@ -69,17 +74,9 @@ def write_noise(directory):
     with h5py.File(directory / "noise.h5", "w") as file:
         for number, time in enumerate(TIMES):
             spread = 1 + time
-            neck = ["", *["", ""]] if number == 0 else [10 - 5 * time, spread, spread / 2]
+            neck = ["", "", ""] if number == 0 else [10 - 5 * time, spread, spread / 2]
             rows.append(",".join(map(str, [time, 40, neck[0], 2, 1, *neck[1:], 3, 1, 0.1, 0.05, 0.2, 0.1])))
-            membrane = synthetic.budding_membrane(time, 1.0)
-            r, z, _ = membrane.curve(400)
-            slope_r, slope_z = np.gradient(r), np.gradient(z)
-            length = np.hypot(slope_r, slope_z)
-            group = file.create_group(f"times/{number:06d}")
-            group.attrs["time"] = time
-            base = {"r": r, "z": z, "normal_r": -slope_z / length, "normal_z": slope_r / length}
-            for name, values in base.items():
-                group[name] = values
+            group, r, _ = write_meridian(file, number, time)
             for m in (0, *ORDERS):
                 modes.append(f"{time},{m},{spread},{spread / 2}")
                 group[f"rms_{m}"], group[f"inherited_{m}"] = spread + 0 * r, spread / 2 + 0 * r
