@@ -1,7 +1,8 @@
 # The project's commands. The two a newcomer needs: `make demo` and `make test`.
 #
 #   make demo       install what is missing, build, run both engines on cases/demo.toml, compare: out/demo/report.html
-#   make test       the same set-up, then all tests and make lint   (SANITIZE=1: with sanitizers)
+#   make test       the same set-up, then all tests and make lint   (SANITIZE=1: with sanitizers); outside of CI clang-tidy
+#                   looks at what changed and at a quarter of the rest, another one from commit to commit: LINT_PARTS=1, all
 #                   SANITIZE=thread: the engine with threads, under the thread sanitizer
 #                   where emscripten is installed, it builds and tries the page of `make web` too: 3 CPU minutes, once
 #   make build      build/endoflow and its engines
@@ -90,7 +91,7 @@ hero: out/demo/hero.webp
 test: test-packages
 	@$(MAKE) --no-print-directory configure TESTS=ON
 	cmake --build $(build)
-	@$(MAKE) --no-print-directory lint
+	@$(MAKE) --no-print-directory lint LINT_PARTS=$(or $(LINT_PARTS),$(if $(CI),1,4))
 	@$(page_for_tests)
 	ctest --test-dir $(build) --parallel $(CORES) --output-on-failure --timeout 3600 $(tests)
 
@@ -131,7 +132,7 @@ lint:
 	tools/pyflakes
 	tools/unused_using
 	@cmake --preset $(preset) -B $(build)/lint -DENDOFLOW_PHASEFIELD=$(PHASEFIELD) -DENDOFLOW_UNITY=ON -DENDOFLOW_TESTS=ON > /dev/null
-	tools/clang_tidy $(build)/lint $(CORES)
+	tools/clang_tidy $(build)/lint $(CORES) $(or $(LINT_PARTS),1)
 
 portability:
 	tools/portability $(DISTRIBUTION) $(TARGET)

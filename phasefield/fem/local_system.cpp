@@ -45,15 +45,15 @@ namespace {
 
 /// In the order of Op: the shape functions, and how often they are differentiated.
 struct Differentiated {
-    std::vector<double> ScalarBasis::*shapes;
+    std::vector<double> ShapeArrays::*shapes;
     int in_r, in_z;
 };
-constexpr std::array<Differentiated, all_operations.size()> differentiated{{{&ScalarBasis::value, 0, 0},
-                                                                            {&ScalarBasis::dx, 1, 0},
-                                                                            {&ScalarBasis::dy, 0, 1},
-                                                                            {&ScalarBasis::dxx, 2, 0},
-                                                                            {&ScalarBasis::dxy, 1, 1},
-                                                                            {&ScalarBasis::dyy, 0, 2}}};
+constexpr std::array<Differentiated, all_operations.size()> differentiated{{{&ShapeArrays::value, 0, 0},
+                                                                            {&ShapeArrays::dx, 1, 0},
+                                                                            {&ShapeArrays::dy, 0, 1},
+                                                                            {&ShapeArrays::dxx, 2, 0},
+                                                                            {&ShapeArrays::dxy, 1, 1},
+                                                                            {&ShapeArrays::dyy, 0, 2}}};
 
 }  // namespace
 

@@ -10,14 +10,19 @@ namespace endoflow::phasefield {
 /// Integrals over r and z become those over the body of revolution.
 inline constexpr double two_pi = 2 * dealii::numbers::PI;
 
-/// Values and derivatives of the scalar Q_k shape functions at the quadrature points of the unit cell.
-/// All arrays are [q * n_dofs + i]. Cells are axis-aligned rectangles, so physical derivatives are these divided by the
-/// cell's extents: no mapping is evaluated in the assembly loops.
-struct ScalarBasis {
+/// Scalar shape functions and their derivatives.
+struct ShapeArrays {
+    std::vector<double> value, dx, dy, dxx, dxy, dyy;
+};
+
+/// Values and derivatives of the scalar Q_k shape functions at the quadrature points of the unit cell, [q * n_dofs +
+/// i], and the same in the other order, [i * n_points + q]. Cells are axis-aligned rectangles, so physical derivatives
+/// are these divided by the cell's extents: no mapping is evaluated in the assembly loops.
+struct ScalarBasis : ShapeArrays {
     ScalarBasis(unsigned int degree, const dealii::Quadrature<2>& quadrature);
 
     unsigned int degree, n_dofs, n_points;
-    std::vector<double> value, dx, dy, dxx, dxy, dyy;
+    ShapeArrays by_function;
 };
 
 /// The nodes of Q_k on the unit cell, in the order of its shape functions.

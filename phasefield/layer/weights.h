@@ -50,7 +50,10 @@ Number delta_Gamma(const LayerProfile<Number>& layer, const MembraneWeight& w) {
 inline double H_Gamma(double phi, const MembraneWeight& w) {
     static const double root = std::sqrt(weight_cut);
     static const std::complex<double> inverse = 1.0 / std::sqrt(std::complex<double>(1, -root));
-    const std::complex<double> part = std::atanh(phi * inverse) * inverse;
+    const double x = std::abs(phi) * inverse.real(), y = std::abs(phi) * inverse.imag(), square = y * y;
+    const std::complex<double> artanh(0.25 * std::log1p(4 * x / ((1 - x) * (1 - x) + square)),
+                                      0.5 * std::atan2(2 * y, (1 - x) * (1 + x) - square));
+    const std::complex<double> part = std::copysign(1.0, phi) * artanh * inverse;
     const double first = w.constant + w.square + w.fourth, second = w.square + 2 * w.fourth;
     const double cut = (first - w.fourth * weight_cut) * part.real() - second * (phi - root * part.imag()) +
                        w.fourth * (phi - phi * phi * phi / 3);
