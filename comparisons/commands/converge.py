@@ -5,14 +5,12 @@ plots and report.html. Exit codes: 0 done; 2 bad command line or parameter; 3 a 
 143 interrupted (run it again to continue).
 """
 
-import sys
-
 import endoflow
 from comparisons.commands.options import common_settings, output_directory
 from comparisons.errors import BAD_INPUT, RUN_FAILED, StudyError, shown
 from comparisons.files import write_json, write_table, write_text
 from comparisons.measures.convergence import DiffuseRun, study_metrics, table
-from comparisons.measures.metrics import flat_parameters
+from comparisons.measures.metrics import flattened
 from comparisons.page import convergence_page
 from comparisons.page.convergence_page import convergence_html
 from comparisons.studies.members import checked_member, load_run, resolved_parameters, settings_of
@@ -86,11 +84,10 @@ class Convergence(Study):
     def page(self, found):
         sharp, kept, metrics = found
         drawn = convergence_page.write_all(sharp, kept, metrics, self.output)
-        case = flat_parameters(self.sharp.parameters)
+        case = flattened(self.sharp.parameters)
         shared = {key: value for key, value in case.items() if key not in self.diffuse[0].values}
         write_text(self.output / "report.html", convergence_html(metrics, case["case.name"], shared, drawn, self.output))
-        for warning in metrics["warnings"]:
-            print(f"endoflow converge: warning: {shown(warning)}", file=sys.stderr)
+        self.warn(metrics["warnings"])
         return summary_lines(metrics, self.output)
 
 

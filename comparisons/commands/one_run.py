@@ -68,12 +68,10 @@ def crate(options):
 def modes(options):
     """What `endoflow modes` becomes when it has computed: plots, report.html and surfaces for ParaView from its tables."""
     directory, found = options.directory, endoflow.load_modes(options.directory)
-    drawn = modes_page.write_all(found, directory)
     surfaces = ((meridian.time, modes_page.surface(meridian)) for meridian in found.meridians)
     write_surfaces(directory, "membrane_modes.pvd", "surfaces", enumerate(surfaces))
     record = read_record(options.run) if options.run else None
-    basis = common_basis([record] if record else [])
-    write_text(directory / "report.html", modes_page.modes_html(found, basis, drawn, directory))
+    modes_page.write_page(found, common_basis([record] if record else []), directory)
     print(f"report  {shown(directory / 'report.html')}")
     print(f"ParaView  {shown(directory / 'membrane_modes.pvd')}")
     return 0

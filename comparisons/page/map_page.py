@@ -9,6 +9,7 @@ from comparisons.drawing.style import plt
 from comparisons.page import html
 from comparisons.page.html import escaped, setting
 from comparisons.studies.outcome_map import OUTCOMES
+from comparisons.studies.sweep_table import complaints
 
 #: Marker and colour of each outcome (Okabe and Ito).
 LOOKS = dict(
@@ -73,8 +74,6 @@ def map_html(rows, lines, folds, keys, full, basis, drawn, directory):
     outcomes = [row["outcome"] for row in rows]
     cards = [(name, str(outcomes.count(name)), "runs") for name in dict.fromkeys(outcomes)]
     cards.append(("Runs", str(len(rows)), f"of {full} of the full grid"))
-    found = [f"{row['directory']} failed: {row['exit_reason']}" for row in rows if row["outcome"] == "failed"]
-    found += [f"{row['directory']}: accuracy alarm: {row['alarms']}" for row in rows if row["alarms"]]
     sections = [("Map", html.plots(drawn, directory))]
     if lines:
         sections.append(("Boundaries", NOTE + html.rows_table(lines, 6)))
@@ -82,4 +81,4 @@ def map_html(rows, lines, folds, keys, full, basis, drawn, directory):
         body = [[escaped(what), setting(x, 6), setting(y, 6)] for what, points in folds.items() for x, y in points]
         sections.append(("Stationary shapes", html.table(["", *map(escaped, keys)], body)))
     sections += [("Runs", html.rows_table(rows, 6)), *html.common_basis_section(basis)]
-    return html.page("endoflow map", " and ".join(keys), f"{len(rows)} runs", found, cards, sections, directory)
+    return html.page("endoflow map", " and ".join(keys), f"{len(rows)} runs", complaints(rows), cards, sections, directory)
