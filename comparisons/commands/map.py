@@ -8,7 +8,7 @@ run failed; 4 input or output; 130 or 143 interrupted (run it again to continue)
 import endoflow
 from comparisons.commands.options import common_settings, output_directory, require_apart
 from comparisons.errors import BAD_INPUT, RUN_FAILED, StudyError, shown
-from comparisons.files import write_table, write_text
+from comparisons.files import write_table
 from comparisons.measures.words import common_basis, counted
 from comparisons.page import map_page
 from comparisons.studies.members import (
@@ -91,9 +91,7 @@ class OutcomeMap(Study):
     def page(self, lines):
         rows, keys, output, full = self.rows, self.keys, self.output, (self.extent + 1) ** 2
         labels = [axis_label(key, self.units) for key in keys]
-        drawn = map_page.write_all(rows, lines, self.folds, keys, labels, output)
-        basis = common_basis(records_of(self.all))
-        write_text(output / "report.html", map_page.map_html(rows, lines, self.folds, keys, full, basis, drawn, output))
+        map_page.write_page(rows, lines, self.folds, keys, labels, full, common_basis(records_of(self.all)), output)
         return [
             f"runs    {len(rows)} instead of the {full} of the full grid: {counted(row['outcome'] for row in rows)}",
             f"table   {shown(output / 'boundaries.csv') if lines else 'no boundary: one outcome everywhere'}",

@@ -10,7 +10,7 @@ import endoflow
 from comparisons.drawing.film import ENCODERS, Film, frame_times, write_film
 from comparisons.drawing.surfaces import membrane_surface, write_surfaces
 from comparisons.errors import BAD_INPUT, StudyError, shown
-from comparisons.files import require_writable, write_json, write_text
+from comparisons.files import require_writable, write_json
 from comparisons.measures.along import Along
 from comparisons.measures.words import common_basis
 from comparisons.page import modes_page, run_page
@@ -24,8 +24,7 @@ def report(options):
     output = options.output or options.directory / "report"
     require_writable(output)
     output.mkdir(parents=True, exist_ok=True)
-    drawn = run_page.write_all(run, output)
-    write_text(output / "report.html", run_page.run_html(run, drawn, output))
+    run_page.write_page(run, output)
     print(f"report  {shown(output / 'report.html')}")
     return 0
 

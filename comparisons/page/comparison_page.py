@@ -5,8 +5,9 @@ import json
 
 import numpy as np
 
-from comparisons.drawing import style
+from comparisons.drawing import plots, style
 from comparisons.drawing.axes import half_width, long_after_budding, time_axis
+from comparisons.files import write_text
 from comparisons.measures.metrics import ENGINE_SECTIONS, compared, flattened, last_budding
 from comparisons.measures.quantities import COMPARED, DRAWN
 from comparisons.measures.words import basis
@@ -44,8 +45,15 @@ LEAST_HEIGHT = 60.0
 LINE_POINTS = 500
 
 
+def write_page(a, b, metrics, directory):
+    """Write plots and report.html of two endoflow.Run objects and their metrics into directory (Path)."""
+    labels = [metrics["runs"][key]["label"] for key in "ab"]
+    drawn = plots.write_all(a, b, metrics, labels, directory)
+    write_text(directory / "report.html", report_html(a, b, metrics, drawn, directory))
+
+
 def report_html(a, b, metrics, drawn, directory):
-    """The report's text for two endoflow.Run objects, their metrics, and the plots drawn, {name: title}, in directory (Path)."""
+    """The page's text; drawn: {plot: title}."""
     labels = [metrics["runs"][key]["label"] for key in "ab"]
     data = json.dumps(report_data(a, b, metrics), allow_nan=False, separators=(",", ":"))
     sections = html.filled(

@@ -10,6 +10,7 @@ from comparisons.drawing import style
 from comparisons.drawing.axes import draw_histories, plain_number, say_none, vertical_range
 from comparisons.drawing.plots import DRAWN_SPACING, legend_on_top, panels, save_all
 from comparisons.drawing.style import plt
+from comparisons.files import write_text
 from comparisons.measures.convergence import PAIRS, at_time, error_of, value_of
 from comparisons.measures.quantities import BUDDING, DISTANCES, DRAWN, NAMES
 from comparisons.page import html
@@ -30,15 +31,18 @@ LIMITS_NOTE = (
 )
 
 
-def write_all(sharp, diffuse, metrics, directory):
-    """Write every plot of a study's endoflow.Run, DiffuseRuns and metrics into directory; returns {name: title}."""
-    figures = {
+def write_page(sharp, diffuse, metrics, case, directory):
+    """Write plots and report.html of a study's endoflow.Run, DiffuseRuns and metrics into directory (Path).
+
+    case: {"section.key": value} of the parameters that all runs share.
+    """
+    plots = {
         "errors": ("Errors against ε, with the fitted orders p", errors(metrics)),
         "limits": (f"Values at {metrics['times_us'][-1]:.4g} µs and their limit ε → 0", limits(metrics)),
         "membranes": ("Membranes of all ε and the sharp one", membranes(sharp, diffuse, metrics["times_us"])),
         "histories": ("Histories", histories(sharp, diffuse)),
     }
-    return save_all(figures, directory)
+    write_text(directory / "report.html", convergence_html(metrics, case, save_all(plots, directory), directory))
 
 
 def shades(colours, count):
@@ -244,11 +248,8 @@ def _name_runs(figure, diffuse, colours):
     legend_on_top(figure, handles, ["sharp", *(f"ε = {one.epsilon:g} nm" for one in diffuse)])
 
 
-def convergence_html(metrics, case_name, parameters, drawn, directory):
-    """The page of an ε → 0 study.
-
-    parameters: of the case, {"section.key": value}; drawn: {plot: title}.
-    """
+def convergence_html(metrics, case, drawn, directory):
+    """The page of an ε → 0 study; case: as of write_page(); drawn: {plot: title}."""
     epsilons = ", ".join(f"{run['epsilon_nm']:g}" for run in metrics["runs"])
     sections = [
         ("Plots", html.plots(drawn, directory)),
@@ -257,12 +258,12 @@ def convergence_html(metrics, case_name, parameters, drawn, directory):
         ("Distances and errors", records_table(metrics)),
         ("Runs", runs_table(metrics)),
         ("What the numbers rest on", basis_table(metrics)),
-        ("Parameters of the case", html.parameters_table(parameters)),
+        ("Parameters of the case", html.parameters_table(case)),
     ]
     return html.page(
         "endoflow converge",
         "Phase field to sharp membrane",
-        f"Case “{case_name}” · ε = {epsilons} nm",
+        f"Case “{case['case.name']}” · ε = {epsilons} nm",
         metrics["warnings"],
         cards(metrics),
         sections,

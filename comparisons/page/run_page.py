@@ -6,6 +6,7 @@ from comparisons.drawing import style
 from comparisons.drawing.axes import draw_histories, mark_time
 from comparisons.drawing.pictures import Panel, gallery
 from comparisons.drawing.plots import panels, save_all
+from comparisons.files import write_text
 from comparisons.measures.along import Along
 from comparisons.measures.metrics import flattened
 from comparisons.measures.quantities import DRAWN
@@ -20,13 +21,13 @@ from endoflow.run_state import unfinished
 PANELS = 4
 
 
-def write_all(run, directory):
-    """Write the plots of an endoflow.Run into directory (Path); returns {name: title}."""
-    figures = {
+def write_page(run, directory):
+    """Write plots and report.html of an endoflow.Run into directory (Path)."""
+    plots = {
         "run_membranes": ("The membrane, coloured by molecule concentration c", membranes(run)),
         "run_histories": ("Histories", histories(run)),
     }
-    return save_all(figures, directory)
+    write_text(directory / "report.html", run_html(run, save_all(plots, directory), directory))
 
 
 def membranes(run):

@@ -7,7 +7,7 @@ from comparisons.drawing import style
 from comparisons.drawing.axes import say_none
 from comparisons.drawing.plots import legend_on_top, panels, save
 from comparisons.drawing.style import plt
-from comparisons.files import as_number
+from comparisons.files import as_number, write_text
 from comparisons.measures.quantities import BUDDING, SWEPT
 from comparisons.page import html
 from comparisons.studies.members import axis_label
@@ -29,11 +29,17 @@ LEAST_SPREAD = 1e-6
 PADDING = {"w_pad": 0.08, "h_pad": 0.08}
 
 
-def write_all(rows, keys, units, directory):
-    """Write the plots of a sweep's rows (as of sweep_table) over its varied keys into directory; returns {name: title}.
+def write_page(rows, keys, units, convention, basis, directory):
+    """Write plot and report.html of a sweep's rows (as of sweep_table) over its varied keys into directory (Path).
 
-    units: {key: unit} of keys that have one. There are none for more than two varied keys.
+    units: {key: unit} of keys that have one; basis: of its runs.
     """
+    drawn = write_plot(rows, keys, units, directory)
+    write_text(directory / "report.html", sweep_html(rows, keys, convention, basis, drawn, directory))
+
+
+def write_plot(rows, keys, units, directory):
+    """{name: title} of the plot, written into directory; there is none for more than two varied keys."""
     labels = [axis_label(key, units) for key in keys]
     if len(keys) == 1:
         title, figure = f"Results against {keys[0]}", lines(rows, keys[0], labels[0])
@@ -157,7 +163,7 @@ def _draw_map(axes, values, x, y):
 
 
 def sweep_html(rows, keys, convention, basis, drawn, directory):
-    """The page of a sweep: its rows (as of sweep_table) over the varied keys; basis: of its runs; drawn: {plot: title}."""
+    """The page's text; drawn: {plot: title}."""
     mixed = [sentence] if (sentence := mixed_programs(rows)) else []
     alarmed = any(row["alarms"] for row in rows)
     subtitle = f"{len(rows)} runs · curvature convention {convention} · {'with' if alarmed else 'no'} accuracy alarms"
