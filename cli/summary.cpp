@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "shared/model/bending_model.h"
+#include "shared/output/accuracy.h"
 #include "shared/output/history_file.h"
 #include "shared/output/run_lock.h"
 #include "shared/output/run_record.h"
@@ -64,11 +65,6 @@ std::string last_row(const RunDirectory& directory, bool has_time) {
     return text;
 }
 
-/// How far the quantity of an alarm went in the whole run.
-double largest(const RunRecord& record, const RunRecord& alarm) {
-    return record.at("accuracy").at(alarm.at("name").get<std::string>()).at("largest").get<double>();
-}
-
 /// How far a run came; a branch of stationary shapes counts its shapes where a run has its time.
 std::string reached(const RunRecord& record) {
     if (record.at("engine") != "statics")
@@ -79,23 +75,6 @@ std::string reached(const RunRecord& record) {
     return fmt::format("{} stationary shapes, {} from {:g} to {:.6g}", branch.at("points").get<long>(),
                        branch.at("parameter").get<std::string>(), branch.at("begin").get<double>(),
                        branch.at("end").get<double>());
-}
-
-/// What follows the number of elements of the sharp engine: those it began with, tolerance, accuracy.
-std::string sharp_resolution(const RunRecord& record) {
-    const RunRecord& parameters = record.at("parameters");
-    const RunRecord& notes = record.at("notes");
-    std::string text;
-    if (notes.contains("elements_from") && notes.at("elements_from").size() > 1)
-        text += fmt::format(" at the end, {} at the start", notes.at("elements_from").at(0).at("elements").get<long>());
-    const double tolerance = notes.value("time_tolerance", parameters.at("time").at("tolerance").get<double>());
-    text += fmt::format(", time tolerance {:g}", tolerance);
-    const RunRecord& accuracy = record.at("accuracy");
-    if (accuracy.contains("resolution"))
-        text += fmt::format("; relative accuracy {:g} asked for, {:.1e} reached",
-                            parameters.at("boundary_integral").at("accuracy").get<double>(),
-                            accuracy.at("resolution").at("largest").get<double>());
-    return text;
 }
 
 /// β and C of the bare and the coated membrane, which the convention makes of b and H0.
@@ -119,35 +98,19 @@ std::string bending(const RunRecord& recorded) {
 
 /// What the numbers rest on: conventions and resolution.
 std::string basis(const RunRecord& record) {
-    const RunRecord& parameters = record.at("parameters");
-    const RunRecord& notes = record.at("notes");
-    std::string resolution;
-    if (record.at("engine") == "phase-field") {
-        const double chosen = notes.value("cell_size_nm", 0.0);
-        const RunRecord& own = parameters.at("phase_field");
-        resolution = fmt::format("layer of epsilon = {:g} nm", own.at("epsilon").get<double>());
-        if (chosen > 0) resolution += fmt::format(" on cells of {:.4g} nm", chosen);
-    } else {
-        const long elements = parameters.at("boundary_integral").at("elements").get<long>();
-        resolution = fmt::format("{} elements", notes.value("elements", elements));
-    }
-    if (record.at("engine") == "boundary-integral") resolution += sharp_resolution(record);
-    return fmt::format("  curvature convention {}: {}; {}\n",
-                       parameters.at("membrane").at("curvature_convention").get<std::string>(),
-                       bending(parameters.at("membrane")), resolution);
+    const RunRecord& membrane = record.at("parameters").at("membrane");
+    return fmt::format("  curvature convention {}: {}; {}\n", membrane.at("curvature_convention").get<std::string>(),
+                       bending(membrane), resolution_in_words(record));
 }
 
-/// Value ± error of what `--certify` looked at; the error has one digit, the value as many.
+/// Value ± error of what `--certify` looked at.
 std::string certified(const RunRecord& record) {
     if (!record.contains("certificate")) return "";
     std::string text;
-    for (const auto& [name, entry] : record.at("certificate").at("values").items()) {
-        const double value = entry.at("value").get<double>(), error = entry.at("error").get<double>();
-        constexpr int exact = 8;
-        const int decimals = error > 0 ? std::max(0, -static_cast<int>(std::floor(std::log10(error)))) : exact;
-        text += fmt::format("  certified: {} {:.{}f} ± {:.{}f} {}\n", entry.at("title").get<std::string>(), value,
-                            decimals, error, decimals, entry.at("unit").get<std::string>());
-    }
+    for (const auto& [name, entry] : record.at("certificate").at("values").items())
+        if (entry.contains("in_words"))
+            text += fmt::format("  certified: {} {}\n", entry.at("title").get<std::string>(),
+                                entry.at("in_words").get<std::string>());
     return text;
 }
 
@@ -155,11 +118,11 @@ std::string certified(const RunRecord& record) {
 std::string alarms(const RunRecord& record) {
     if (!record.contains("alarms")) return "";
     std::string text;
-    for (const RunRecord& alarm : record.at("alarms"))
-        text += fmt::format("  alarm: {} at t = {:.4g} µs: {}: {:.2g}, allowed {:g}; {}\n",
-                            alarm.at("name").get<std::string>(), alarm.at("time_us").get<double>(),
-                            alarm.at("meaning").get<std::string>(), largest(record, alarm),
-                            alarm.at("bound").get<double>(), alarm.at("remedy").get<std::string>());
+    for (const RunRecord& entry : record.at("alarms")) {
+        Alarm alarm = alarm_of(entry);
+        alarm.value = record.at("accuracy").at(alarm.name).at("largest").get<double>();  // of the whole run
+        text += fmt::format("  alarm: {}\n", alarm.describe());
+    }
     return text.empty() ? "  no alarms: every balance stayed within its bound\n" : text;
 }
 

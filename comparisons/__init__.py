@@ -13,5 +13,8 @@ Groups, each of which imports only from those before it (tests/comparisons/test_
 
 from pathlib import Path
 
+#: The engines, as the program calls them.
+BOUNDARY_INTEGRAL, PHASE_FIELD = ENGINES = ("boundary-integral", "phase-field")
+
 #: Where comparisons/, python/ and cases/ lie.
 ROOT = Path(__file__).resolve().parents[1]

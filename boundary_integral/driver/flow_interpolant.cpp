@@ -1,5 +1,7 @@
 #include "boundary_integral/driver/flow_interpolant.h"
 
+#include "shared/numerics/lagrange.h"
+
 namespace endoflow::boundary_integral {
 
 namespace {
@@ -19,15 +21,9 @@ void FlowInterpolant::add(double time, const Evaluation& evaluation) {
 }
 
 std::vector<double> FlowInterpolant::weights(double time) const {
-    std::vector<double> weights;
-    for (const Knot& knot : knots_) {
-        double weight = 1.0;
-        for (const Knot& other : knots_) {
-            if (&other != &knot) weight *= (time - other.time) / (knot.time - other.time);
-        }
-        weights.push_back(weight);
-    }
-    return weights;
+    std::vector<double> times;
+    for (const Knot& knot : knots_) times.push_back(knot.time);
+    return lagrange_weights(times, time);
 }
 
 FlowSolution FlowInterpolant::at(double time) const {

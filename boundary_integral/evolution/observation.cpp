@@ -97,29 +97,37 @@ double EnergyBalance::residual(double floor) const {
     return std::abs(energy_rate + dissipated_power - diffusive_power - external_power) / std::max(moduli(), floor);
 }
 
-EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& e) {
+Eigen::VectorXd moments_of_concentration_rate(const MembraneDynamics& dynamics, const Evaluation& e) {
     const MembraneSpace& space = dynamics.space();
-    EnergyBalance balance{};
-    balance.energy = two_pi * e.energy.energy;
-    // c' at fixed ξ from the moments: M c' = m' - M' c, M' c = ∫ φ c D(r g)[w] dξ with the mesh velocity w.
     const Eigen::VectorXd w_r = e.mesh_velocity.head(space.radial_count());
     const Eigen::VectorXd w_z = e.mesh_velocity.tail(space.axial_count());
-    Eigen::VectorXd right = e.rate.tail(space.axial_count());
-    Eigen::VectorXd advected = Eigen::VectorXd::Zero(space.axial_count());
+    Eigen::VectorXd moments = e.rate.tail(space.axial_count());
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
         const CurvePoint& p = e.samples.curve[i];
         const BasisRow& phi = space.axial_rows[i];
         const double growth = space.radial_rows[i].evaluate(w_r, 0) * p.g +
                               p.r / p.g * (p.r1 * space.radial_rows[i].evaluate(w_r, 1) + p.z1 * phi.evaluate(w_z, 1));
+        for (std::size_t j = 0; j < BasisRow::capacity; ++j)
+            moments[phi.index[j]] -= space.weight[i] * phi.value[0][j] * e.samples.c[i] * growth;
+    }
+    return moments;
+}
+
+EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation& e) {
+    const MembraneSpace& space = dynamics.space();
+    EnergyBalance balance{};
+    balance.energy = two_pi * e.energy.energy;
+    Eigen::VectorXd advected = Eigen::VectorXd::Zero(space.axial_count());
+    for (std::size_t i = 0; i < space.xi.size(); ++i) {
+        const CurvePoint& p = e.samples.curve[i];
+        const BasisRow& phi = space.axial_rows[i];
         // Transport by the material alone leaves c constant along it: dc/dt at fixed ξ = - v c'/g.
         const double carried = -e.relative_velocity[i] * e.samples.c1[i] / p.g * p.r * p.g;
-        for (std::size_t j = 0; j < 6; ++j) {
-            right[phi.index[j]] -= space.weight[i] * phi.value[0][j] * e.samples.c[i] * growth;
+        for (std::size_t j = 0; j < BasisRow::capacity; ++j)
             advected[phi.index[j]] += space.weight[i] * phi.value[0][j] * carried;
-        }
     }
     const LuFactors mass(surface_mass_matrix(space, e.samples.curve), "concentration mass");
-    const Eigen::VectorXd c_rate = mass.solve(right);
+    const Eigen::VectorXd c_rate = mass.solve(moments_of_concentration_rate(dynamics, e));
     const Eigen::VectorXd c_carried = mass.solve(advected);
     balance.energy_rate = two_pi * (e.energy.gradient.dot(e.mesh_velocity) + e.energy.gradient_c.dot(c_rate));
     balance.diffusive_power = two_pi * e.energy.gradient_c.dot(c_rate - c_carried);

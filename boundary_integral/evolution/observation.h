@@ -24,6 +24,11 @@ namespace endoflow::boundary_integral {
 [[nodiscard]] WallDistance wall_distance(const MembraneSpace& space, const MembraneSamples& samples,
                                          const DomainParameters& domain);
 
+/// M c', c' being the rate of c at fixed ξ of the moving mesh: m' − M' c with M' c = ∫ φ c D(r g)[w] dξ, w the mesh
+/// velocity.
+[[nodiscard]] Eigen::VectorXd moments_of_concentration_rate(const MembraneDynamics& dynamics,
+                                                            const Evaluation& evaluation);
+
 /// Energy balance of a state: rate of E along the computed motion against the power given to the fluid, the energy that
 /// inflowing membrane brings along and the energy that diffusion of the molecules brings.
 struct EnergyBalance {

@@ -4,6 +4,7 @@
 
 #include "boundary_integral/membrane/energy.h"
 #include "shared/numerics/gauss_legendre.h"
+#include "shared/numerics/lagrange.h"
 
 namespace endoflow::boundary_integral {
 
@@ -14,18 +15,12 @@ using LabelJet = Jet<1>;
 /// Integrals over the interpolation polynomials from -1 to the nodes: (i, j) = ∫_{-1}^{x_i} L_j.
 Eigen::MatrixXd partial_integrals(const QuadratureRule& rule) {
     const auto count = static_cast<Index>(rule.nodes.size());
-    const auto node = [&](Index i) { return rule.nodes[static_cast<std::size_t>(i)]; };
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(count, count);
-    for (Index i = 0; i < count; ++i) {
-        const double half = 0.5 * (node(i) + 1.0);
-        for (Index q = 0; q < count; ++q) {
-            const double x = -1.0 + half * (1.0 + node(q));
-            for (Index j = 0; j < count; ++j) {
-                double lagrange = half * rule.weights[static_cast<std::size_t>(q)];
-                for (Index k = 0; k < count; ++k)
-                    if (k != j) lagrange *= (x - node(k)) / (node(j) - node(k));
-                result(i, j) += lagrange;
-            }
+    for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+        const double half = 0.5 * (rule.nodes[i] + 1.0);
+        for (std::size_t q = 0; q < rule.nodes.size(); ++q) {
+            const std::vector<double> at = lagrange_weights(rule.nodes, -1.0 + half * (1.0 + rule.nodes[q]));
+            result.row(static_cast<Index>(i)) += half * rule.weights[q] * Eigen::RowVectorXd::Map(at.data(), count);
         }
     }
     return result;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "boundary_integral/modes/engine_state.h"
 #include "boundary_integral/support/parallel.h"
 #include "shared/support/error.h"
 
@@ -73,7 +72,7 @@ void AlongRun::for_modes(int first_mode, const std::function<void(int mode, std:
 Moment AlongRun::moment(double time, int first_mode) const {
     Moment result{time, first_mode, dynamics_.evaluate(trajectory_.state(time)), nullptr, {}};
     result.membrane =
-        std::make_unique<LinearisedMembrane>(parameters_, surroundings_, engine_state(dynamics_, result.evaluation));
+        std::make_unique<LinearisedMembrane>(parameters_, surroundings_, base_state(dynamics_, result.evaluation));
     result.rates.resize(static_cast<std::size_t>(last_mode() - first_mode) + 1);
     for_modes(first_mode, [&](int mode, std::size_t k) { result.rates[k] = result.membrane->rates(mode); });
     return result;

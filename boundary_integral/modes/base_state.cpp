@@ -25,6 +25,17 @@ Derivatives2 derivatives(const BasisRow& row, const Eigen::VectorXd& coefficient
 
 }  // namespace
 
+BaseState base_state(const MembraneDynamics& dynamics, const Evaluation& evaluation) {
+    BaseState base;
+    base.membrane = evaluation.state;
+    base.velocity = evaluation.flow.velocity;
+    base.force = evaluation.flow.force;
+    base.multipliers = evaluation.flow.multipliers;
+    base.inflow = evaluation.flow.inflow;
+    if (const BoxFlow* box = dynamics.box()) base.walls = box->wall_unknowns(*evaluation.operators, evaluation.flow);
+    return base;
+}
+
 BasePoint base_point(const MembraneSpace& space, const BaseState& base, const Viscosities& viscosities, double xi,
                      Index element) {
     const Index radial_count = space.radial_count();

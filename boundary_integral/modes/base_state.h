@@ -3,6 +3,7 @@
 // The axisymmetric state that is perturbed: shape, concentration, and the flow that goes with them, with all that the
 // perturbed conditions on the membrane need of it.
 
+#include "boundary_integral/evolution/membrane_dynamics.h"
 #include "boundary_integral/flow/flow_model.h"
 #include "boundary_integral/membrane/membrane_space.h"
 #include "boundary_integral/modes/surface_variation.h"
@@ -19,6 +20,9 @@ struct BaseState {
     Eigen::VectorXd walls;         // unknowns of WallPanels; empty in free space
     Eigen::VectorXd traction_sum;  // force_count: (sigma_1 + sigma_2).n at the membrane, up to a pressure
 };
+
+/// Flow, tension and walls as the axisymmetric engine has them; without traction_sum.
+[[nodiscard]] BaseState base_state(const MembraneDynamics& dynamics, const Evaluation& evaluation);
 
 struct Viscosities {
     double below, above;  // fluids 1 and 2, pN us/nm^2

@@ -7,24 +7,22 @@ cannot be written; 130 interrupted.
 import sys
 
 import endoflow
-from comparisons.drawing import plots, style
+from comparisons.drawing import style
 from comparisons.errors import shown
-from comparisons.files import require_writable, write_json, write_text
+from comparisons.files import require_writable, write_json
 from comparisons.measures.along import side_by_side
 from comparisons.measures.metrics import compare_runs
-from comparisons.page.comparison_page import report_html
+from comparisons.page import comparison_page
 
 
 def write_comparison(a, b, output):
     """Compare two run directories (Path) and write everything into the directory output (Path); returns the metrics."""
     run_a, run_b = side_by_side(endoflow.load(a), endoflow.load(b))
     require_writable(output)
-    labels = style.labels(run_a, run_b)
-    metrics = compare_runs(run_a, run_b, labels)
+    metrics = compare_runs(run_a, run_b, style.labels(run_a, run_b))
     output.mkdir(parents=True, exist_ok=True)
     write_json(output / "metrics.json", metrics)
-    drawn = plots.write_all(run_a, run_b, metrics, labels, output)
-    write_text(output / "report.html", report_html(run_a, run_b, metrics, drawn, output))
+    comparison_page.write_page(run_a, run_b, metrics, output)
     return metrics
 
 

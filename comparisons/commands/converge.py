@@ -5,16 +5,13 @@ plots and report.html. Exit codes: 0 done; 2 bad command line or parameter; 3 a 
 143 interrupted (run it again to continue).
 """
 
-import sys
-
 import endoflow
 from comparisons.commands.options import common_settings, output_directory
 from comparisons.errors import BAD_INPUT, RUN_FAILED, StudyError, shown
-from comparisons.files import write_json, write_table, write_text
+from comparisons.files import write_json, write_table
 from comparisons.measures.convergence import DiffuseRun, study_metrics, table
-from comparisons.measures.metrics import flat_parameters
+from comparisons.measures.metrics import flattened
 from comparisons.page import convergence_page
-from comparisons.page.convergence_page import convergence_html
 from comparisons.studies.members import checked_member, load_run, resolved_parameters, settings_of
 from comparisons.studies.ranges import positive_numbers
 from comparisons.studies.study import Study
@@ -85,12 +82,9 @@ class Convergence(Study):
 
     def page(self, found):
         sharp, kept, metrics = found
-        drawn = convergence_page.write_all(sharp, kept, metrics, self.output)
-        case = flat_parameters(self.sharp.parameters)
-        shared = {key: value for key, value in case.items() if key not in self.diffuse[0].values}
-        write_text(self.output / "report.html", convergence_html(metrics, case["case.name"], shared, drawn, self.output))
-        for warning in metrics["warnings"]:
-            print(f"endoflow converge: warning: {shown(warning)}", file=sys.stderr)
+        case = {key: value for key, value in flattened(self.sharp.parameters).items() if key not in self.diffuse[0].values}
+        convergence_page.write_page(sharp, kept, metrics, case, self.output)
+        self.warn(metrics["warnings"])
         return summary_lines(metrics, self.output)
 
 

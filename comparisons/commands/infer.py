@@ -5,7 +5,6 @@ command line, study or parameter; 3 no run succeeded, or too few alike; 4 input 
 again to continue).
 """
 
-import sys
 from pathlib import Path
 
 from comparisons.errors import BAD_INPUT, StudyError
@@ -17,7 +16,7 @@ from comparisons.inference.results import bands, fit_results, head, runs_entry, 
 from comparisons.inference.sensitivity import indices
 from comparisons.inference.simulator import Simulator, check_limits, resolved
 from comparisons.inference.study_file import read_study
-from comparisons.measures.metrics import flat_parameters
+from comparisons.measures.metrics import flattened
 from comparisons.measures.words import common_basis
 from comparisons.studies.members import parameter_units, records_of
 from comparisons.studies.study import Study
@@ -73,12 +72,11 @@ class Inference(Study):
         return results
 
     def page(self, results):
-        flat = flat_parameters(self.problem.parameters)
+        flat = flattened(self.problem.parameters)
         flat = {key: value for key, value in flat.items() if not key.startswith("phase_field.")}
         basis, path = common_basis(records_of(self.simulator.members.values())), self.output / "report.html"
         write_text(path, page.inference_html(results, flat, basis, self.drawn, self.output))
-        for warning in results["warnings"]:
-            print(f"endoflow infer: warning: {warning}", file=sys.stderr)
+        self.warn(results["warnings"])
         return [*summary_lines(results), f"report  {path}"]
 
 

@@ -8,10 +8,19 @@ run failed; 4 input or output; 130 or 143 interrupted (run it again to continue)
 import endoflow
 from comparisons.commands.options import common_settings, output_directory, require_apart
 from comparisons.errors import BAD_INPUT, RUN_FAILED, StudyError, shown
-from comparisons.files import write_table, write_text
-from comparisons.measures.words import common_basis
+from comparisons.files import write_table
+from comparisons.measures.words import common_basis, counted
 from comparisons.page import map_page
-from comparisons.studies.members import checked_member, directory_name, parameter_units, read_record, records_of, settings_of
+from comparisons.studies.members import (
+    NECK_CLOSED,
+    axis_label,
+    checked_member,
+    directory_name,
+    parameter_units,
+    read_record,
+    records_of,
+    settings_of,
+)
 from comparisons.studies.outcome_map import boundaries, outcome_of, traced
 from comparisons.studies.ranges import two_intervals
 from comparisons.studies.study import Study
@@ -20,11 +29,8 @@ from comparisons.studies.sweep_table import row
 #: Settings of every run unless --set gives others: a map needs neither fields nor many shapes.
 LEAN = ("output.field_interval=0",)
 
-#: exit_reason of a branch of stationary shapes whose neck closes.
-NECK_CLOSED = "neck-closed"
-
 #: Columns of map.csv beside the two parameters and the outcome.
-KEPT = ("budding_time_us", "neck_radius_nm", "height_nm", "exit_reason", "alarms", "directory")
+KEPT = ("budding_time_us", "neck_radius_nm", "bud_height_nm", "exit_reason", "alarms", "directory")
 
 
 class OutcomeMap(Study):
@@ -63,7 +69,7 @@ class OutcomeMap(Study):
         for point, member in members.items():
             entry = row(member, outcomes.get(member.name))
             record = None if entry["state"] in ("failed", "not run") else read_record(member.directory)
-            found[point] = outcome_of(record, entry["neck_radius_nm"], entry["height_nm"])
+            found[point] = outcome_of(record, entry["neck_radius_nm"], entry["bud_height_nm"])
             values = {key: float(text) for key, text in member.values.items()}
             self.rows.append({**values, "outcome": found[point], **{name: entry[name] for name in KEPT}})
         return found
@@ -84,14 +90,10 @@ class OutcomeMap(Study):
 
     def page(self, lines):
         rows, keys, output, full = self.rows, self.keys, self.output, (self.extent + 1) ** 2
-        labels = [f"{key} ({self.units[key]})" if key in self.units else key for key in keys]
-        drawn = map_page.write_all(rows, lines, self.folds, keys, labels, output)
-        basis = common_basis(records_of(self.all))
-        write_text(output / "report.html", map_page.map_html(rows, lines, self.folds, keys, full, basis, drawn, output))
-        outcomes = [row["outcome"] for row in rows]
-        counts = ", ".join(f"{outcomes.count(name)} {name}" for name in dict.fromkeys(outcomes))
+        labels = [axis_label(key, self.units) for key in keys]
+        map_page.write_page(rows, lines, self.folds, keys, labels, full, common_basis(records_of(self.all)), output)
         return [
-            f"runs    {len(rows)} instead of the {full} of the full grid: {counts}",
+            f"runs    {len(rows)} instead of the {full} of the full grid: {counted(row['outcome'] for row in rows)}",
             f"table   {shown(output / 'boundaries.csv') if lines else 'no boundary: one outcome everywhere'}",
             f"report  {shown(output / 'report.html')}",
         ]

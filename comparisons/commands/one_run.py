@@ -10,7 +10,7 @@ import endoflow
 from comparisons.drawing.film import ENCODERS, Film, frame_times, write_film
 from comparisons.drawing.surfaces import membrane_surface, write_surfaces
 from comparisons.errors import BAD_INPUT, StudyError, shown
-from comparisons.files import require_writable, write_json, write_text
+from comparisons.files import require_writable, write_json
 from comparisons.measures.along import Along
 from comparisons.measures.words import common_basis
 from comparisons.page import modes_page, run_page
@@ -24,8 +24,7 @@ def report(options):
     output = options.output or options.directory / "report"
     require_writable(output)
     output.mkdir(parents=True, exist_ok=True)
-    drawn = run_page.write_all(run, output)
-    write_text(output / "report.html", run_page.run_html(run, drawn, output))
+    run_page.write_page(run, output)
     print(f"report  {shown(output / 'report.html')}")
     return 0
 
@@ -68,12 +67,10 @@ def crate(options):
 def modes(options):
     """What `endoflow modes` becomes when it has computed: plots, report.html and surfaces for ParaView from its tables."""
     directory, found = options.directory, endoflow.load_modes(options.directory)
-    drawn = modes_page.write_all(found, directory)
     surfaces = ((meridian.time, modes_page.surface(meridian)) for meridian in found.meridians)
     write_surfaces(directory, "membrane_modes.pvd", "surfaces", enumerate(surfaces))
     record = read_record(options.run) if options.run else None
-    basis = common_basis([record] if record else [])
-    write_text(directory / "report.html", modes_page.modes_html(found, basis, drawn, directory))
+    modes_page.write_page(found, common_basis([record] if record else []), directory)
     print(f"report  {shown(directory / 'report.html')}")
     print(f"ParaView  {shown(directory / 'membrane_modes.pvd')}")
     return 0

@@ -6,11 +6,10 @@ import sys
 from collections import namedtuple
 from pathlib import Path
 
+from comparisons import ENGINES
 from comparisons.errors import BAD_INPUT, StudyError
 from comparisons.inference.study_keys import documentation
 from comparisons.paper import NAMES, OTHER_NAMES
-
-ENGINES = ("boundary-integral", "phase-field")
 
 AGAIN = "Finished runs are not repeated and interrupted ones are continued when the command is given again."
 

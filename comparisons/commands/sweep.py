@@ -4,13 +4,13 @@ Writes sweep.csv, plots and report.html. Exit codes: 0 done; 2 bad command line 
 output; 130 or 143 interrupted (run it again to continue).
 """
 
-import sys
 from dataclasses import replace
 
-from comparisons.commands.options import ENGINES, common_settings, output_directory, require_apart
+from comparisons import ENGINES
+from comparisons.commands.options import common_settings, output_directory, require_apart
 from comparisons.errors import shown
-from comparisons.files import write_table, write_text
-from comparisons.measures.words import common_basis
+from comparisons.files import write_table
+from comparisons.measures.words import common_basis, counted
 from comparisons.page import sweep_page
 from comparisons.studies.members import checked_member, directory_name, parameter_units, records_of, settings_of
 from comparisons.studies.ranges import combinations, parsed_variation
@@ -54,16 +54,15 @@ class Sweep(Study):
         self.evaluate(outcomes)
 
     def page(self, rows):
-        if mixed := mixed_programs(rows):
-            print(f"endoflow sweep: warning: {mixed}", file=sys.stderr)
+        self.warn(filter(None, [mixed_programs(rows)]))
         keys, basis = [*self.all[0].values], common_basis(records_of(self.all))
         used = dict.fromkeys(member.parameters["membrane"]["curvature_convention"] for member in self.all)
-        drawn = sweep_page.write_all(rows, keys, self.units, self.output)
-        path = self.output / "report.html"
-        write_text(path, sweep_page.sweep_html(rows, keys, " and ".join(used), basis, drawn, self.output))
-        states = [row["state"] for row in rows]
-        counts = ", ".join(f"{states.count(state)} {state}" for state in dict.fromkeys(states))
-        return [f"runs    {counts}", f"table   {shown(self.output / 'sweep.csv')}", f"report  {shown(path)}"]
+        sweep_page.write_page(rows, keys, self.units, " and ".join(used), basis, self.output)
+        return [
+            f"runs    {counted(row['state'] for row in rows)}",
+            f"table   {shown(self.output / 'sweep.csv')}",
+            f"report  {shown(self.output / 'report.html')}",
+        ]
 
 
 def run(options):

@@ -1,4 +1,6 @@
-"""How much of the meridian plane and of time plots, pictures and the page show."""
+"""How much of the meridian plane and of time plots, pictures and the page show, and how axes are written."""
+
+import numpy as np
 
 from comparisons.measures.metrics import last_budding
 
@@ -33,3 +35,40 @@ def time_axis(metrics):
     if long_after_budding(metrics):
         return {"first": LOG_START * last_budding(metrics), "last": last, "logarithmic": True}
     return {"first": 0.0, "last": last if last > 0 else 1.0, "logarithmic": False}
+
+
+def plain_number(value, _place):
+    """Tick label of a logarithmic axis: 0.01, not 10⁻²."""
+    return f"{value:g}"
+
+
+def distance(x, _place):
+    """Tick label of an axis across both half-planes: how far from the axis of symmetry."""
+    return f"{abs(x):g}"
+
+
+def say_none(axes, text):
+    """Write into an empty panel that there is nothing to draw."""
+    axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", color="#777777")
+    axes.set_yticks([])
+
+
+def mark_time(axes, time, line=":"):
+    """A thin grey line at a time (µs); none at None."""
+    if time is not None:
+        axes.axvline(time, color="#888888", linewidth=0.9, linestyle=line)
+
+
+def draw_histories(grid, columns, lines, none, label="time (µs)"):
+    """Columns {column: Quantity} of histories, one in each of the first panels of a grid; none: what an empty one says.
+
+    lines: [(what it goes along (rows,), history, look)] of each run, for Axes.plot.
+    """
+    for axes, (column, shown) in zip(grid, columns.items()):
+        values = [shown.factor * history[column] for _, history, _ in lines]
+        for (along, _, look), value in zip(lines, values):
+            axes.plot(along, value, **look)
+        axes.set_title(shown.label)
+        axes.set_xlabel(label)
+        if not any(np.isfinite(value).any() for value in values):
+            say_none(axes, none)

@@ -6,7 +6,7 @@ import subprocess
 import numpy as np
 
 from comparisons.drawing import style
-from comparisons.drawing.axes import LOG_FROM, LOG_START, half_width, vertical_range
+from comparisons.drawing.axes import LOG_FROM, LOG_START, distance, half_width, plain_number, vertical_range
 from comparisons.drawing.pictures import draw_membrane
 from comparisons.drawing.style import plt
 from comparisons.errors import IO_FAILURE, StudyError
@@ -88,7 +88,7 @@ class Film:
         if early_budding(self.run) is not None:
             axes.set_xscale("log", nonpositive="mask")
             axes.set_xlim(LOG_START * early_budding(self.run), self.times[-1])
-            axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+            axes.xaxis.set_major_formatter(plain_number)
         return axes.axvline(self.along.value(self.times[0]), color="#7A3E9D", linewidth=1.6)
 
     def frame(self, index):
@@ -99,7 +99,7 @@ class Film:
         axes.clear()
         draw_membrane(axes, shape, self.z_range, self.rim, line_width=4)
         axes.set(xlim=(-self.rim, self.rim), ylim=self.z_range, aspect="equal", xlabel="r (nm)", ylabel="z (nm)")
-        axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):g}")
+        axes.xaxis.set_major_formatter(distance)
         decimals = 3 if self.times[-1] < 10 or time < 1.5 * (early_budding(self.run) or 0) else 2
         decimals = max(decimals, 2 - int(np.floor(np.log10(self.times[-1]))))
         self.clock.set_text(self.along.quantity(time, f".{decimals}f" if self.along.is_time else ".4g"))

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from comparisons.drawing import plots, style
-from comparisons.drawing.axes import half_width, vertical_range
+from comparisons.drawing.axes import distance, half_width, vertical_range
 from comparisons.drawing.style import plt
 from endoflow.curves import arc_length
 
@@ -49,7 +49,7 @@ def gallery(rows, margin=7.0):
         for axes, panel in zip(line, panels):
             axes.set_title(panel.title)
             axes.set(xlim=(-rim, rim), ylim=z_range, aspect="equal")
-            axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):g}")
+            axes.xaxis.set_major_formatter(distance)
             if isinstance(panel.shape, str):
                 _say(axes, panel.shape)
                 continue

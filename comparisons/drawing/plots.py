@@ -6,7 +6,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from scipy.integrate import trapezoid
 
 from comparisons.drawing import style
-from comparisons.drawing.axes import half_width, time_axis, vertical_range
+from comparisons.drawing.axes import distance, draw_histories, half_width, plain_number, time_axis, vertical_range
 from comparisons.drawing.style import plt
 from comparisons.files import named
 from comparisons.measures.metrics import compared, concentration_profile, last_budding
@@ -118,7 +118,7 @@ def draw_pair(axes, shapes, colours, z_range, rim, line_width=3.0):
         )
     axes.set(xlim=(-rim, rim), ylim=z_range, aspect="equal", facecolor=style.CYTOPLASM)
     axes.grid(False)
-    axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):g}")
+    axes.xaxis.set_major_formatter(distance)
     return lines
 
 
@@ -212,15 +212,15 @@ def concentration(a, b, times, labels, colours):
 def histories(a, b, labels, colours, time_range):
     """Every quantity of DRAWN of both runs against time, budding marked; time_range as of time_axis()."""
     figure, grid = panels(len(DRAWN) + 1)
+    looks = [{"color": colour, **line} for colour, line in zip(colours, style.LINES)]
+    lines = [(run.history["time_us"], run.history, look) for run, look in zip((a, b), looks)]
+    draw_histories(grid, DRAWN, lines, "none in either run")
     for axes, (column, shown) in zip(grid, DRAWN.items()):
-        values = [run.history[column] * shown.factor for run in (a, b)]
-        for run, value, colour, line in zip((a, b), values, colours, style.LINES):
-            axes.plot(run.history["time_us"], value, color=colour, **line)
+        for run, colour in zip((a, b), colours):
             _mark_budding(axes, run, colour)
         _set_time_axis(axes, time_range)
-        _set_value_axis(axes, np.concatenate(values), shown.logarithmic)
-        axes.set_title(shown.label)
-        axes.set_xlabel("time (µs)")
+        if shown.logarithmic:
+            _set_logarithmic(axes, shown.factor * np.concatenate([run.history[column] for run in (a, b)]))
     if np.isfinite(np.concatenate([run.history["neck_radius_nm"] for run in (a, b)])).any():
         neck = grid[list(DRAWN).index("neck_radius_nm")]
         neck.axhline(style.BUDDING_NECK_RADIUS, color="#888888", linewidth=0.9, linestyle=":")
@@ -244,7 +244,7 @@ def _set_time_axis(axes, time_range):
     """Range and scale of the time axis, as of time_axis()."""
     if time_range["logarithmic"]:
         axes.set_xscale("log", nonpositive="mask")
-        axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        axes.xaxis.set_major_formatter(plain_number)
     axes.set_xlim(time_range["first"], time_range["last"])
 
 
@@ -255,18 +255,15 @@ def _mark_budding(axes, run, colour):
         axes.axvline(time, color=colour, linewidth=0.9, alpha=0.5, zorder=1)
 
 
-def _set_value_axis(axes, values, wants_log):
-    """Logarithmic axis if wanted and the values (n,) are positive and span a decade; says so when there are none."""
+def _set_logarithmic(axes, values):
+    """Logarithmic axis if the values (n,) are positive and span a decade."""
     found = values[np.isfinite(values)]
-    if not found.size:
-        axes.text(0.5, 0.5, "none in either run", transform=axes.transAxes, ha="center", color="#777777")
-        axes.set_yticks([])
-    elif wants_log and found.min() > 0 and found.max() > 10 * found.min():
+    if found.size and found.min() > 0 and found.max() > 10 * found.min():
         axes.set_yscale("log")
         axes.set_ylim(bottom=max(0.8 * found.min(), SMALLEST_SHOWN * found.max()))
         if found.max() < 1000 * found.min():
             axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-            axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+            axes.yaxis.set_major_formatter(plain_number)
             axes.yaxis.set_minor_formatter(NullFormatter())
 
 
@@ -283,7 +280,7 @@ def distances(metrics):
         left.plot(time, [record[key] for record in records], color=colour, linestyle=dashes, label=name)
     values = np.array([record[key] for record in records for key, *_ in curves])
     if values.any():
-        _set_value_axis(left, values[values > SMALLEST_SHOWN * values.max()], wants_log=True)
+        _set_logarithmic(left, values[values > SMALLEST_SHOWN * values.max()])
     if left.get_yscale() == "linear":
         left.set_ylim(0, 1.15 * values.max() or 1.0)
     left.set(xlabel="time (µs)", ylabel="distance (nm)")

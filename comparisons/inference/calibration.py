@@ -39,8 +39,7 @@ class Case:
 
 def truths(problem, count, seed):
     """Coordinates (count, unknowns) drawn from the priors."""
-    fractions = np.random.default_rng(seed).random((count, len(problem.unknowns)))
-    return np.column_stack([prior.from_fraction(fractions[:, i]) for i, prior in enumerate(problem.priors)])
+    return problem.points(np.random.default_rng(seed).random((count, len(problem.unknowns))))
 
 
 def truth_of_run(problem, directory):

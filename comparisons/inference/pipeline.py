@@ -63,11 +63,7 @@ class Inference:
 def first_points(problem, seed):
     """Engine coordinates (n, engine_count) of the first look."""
     count = problem.engine_count
-    fractions = design(count, max(LEAST_STARTS, STARTS_PER_UNKNOWN * count), seed)
-    points = np.empty(fractions.shape)
-    for i in range(count):
-        points[:, i] = problem.priors[i].from_fraction(fractions[:, i])
-    return points
+    return problem.points(design(count, max(LEAST_STARTS, STARTS_PER_UNKNOWN * count), seed))
 
 
 def infer(problem, simulator, say):

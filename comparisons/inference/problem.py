@@ -17,7 +17,7 @@ from comparisons.inference.course import BUDDED, values_at, within_course
 from comparisons.inference.observations import EVENTS
 from comparisons.inference.study_file import MOST_UNKNOWNS, horizon, is_exact_time_scale
 from comparisons.inference.study_keys import MEASURABLE
-from comparisons.measures.metrics import flat_parameters
+from comparisons.measures.metrics import flattened
 
 #: Rounding of a time that is meant to be the end of the runs, relative.
 ROUNDING = 1e-6
@@ -130,7 +130,7 @@ class Problem:
     def __init__(self, study, parameters):
         exact = [u for u in study.unknowns if is_exact(u, parameters)]
         self.study = study = checked(study, parameters, exact)
-        self.parameters, self.base = parameters, flat_parameters(parameters)
+        self.parameters, self.base = parameters, flattened(parameters)
         self.unknowns = [*(u for u in study.unknowns if u not in exact), *exact]
         self.engine_count = len(self.unknowns) - len(exact)
         if self.engine_count > MOST_UNKNOWNS:
@@ -179,7 +179,7 @@ class Problem:
 
     def coordinates(self, parameters):
         """Coordinates (unknowns,) of a run with these parameters. Raises StudyError where they do not say what an unknown is."""
-        flat, found = flat_parameters(parameters), []
+        flat, found = flattened(parameters), []
         for unknown, (lowest, highest) in zip(self.unknowns, self.limits):
             if not unknown.key:
                 raise StudyError(f"unknown {unknown.name} is no parameter's value: no run says what it truly is", BAD_INPUT)
@@ -189,6 +189,11 @@ class Problem:
                 raise StudyError(f"{unknown.key} = {value:g} is outside of what its prior allows; widen it", BAD_INPUT)
             found.append(x)
         return np.array(found)
+
+    def points(self, fractions):
+        """Coordinates (n, k) of the first k unknowns, below which these fractions (n, k) of their priors lie."""
+        columns = [prior.from_fraction(part) for prior, part in zip(self.priors, fractions.T)]
+        return np.column_stack(columns) if columns else np.empty(fractions.shape)
 
     def display(self, x):
         """Values (n, unknowns) of coordinates."""

@@ -30,6 +30,8 @@ from scipy.stats import chi2
 
 from comparisons.files import write_table
 from comparisons.inference.course import BUDDED, batch_of, values_at, within_course
+from comparisons.inference.pipeline import ACCURATE, CROWD
+from comparisons.inference.sampling import LENGTH
 from comparisons.inference.sensitivity import directions
 from comparisons.inference.study_keys import MEASURABLE
 
@@ -213,15 +215,15 @@ def warnings(results):
         where = "where the best run has no such number (before its neck, after its end)"
         found.append(f"{fit['outside']} of {fit['data']} data lie {where}")
     check = emulator["check"]
-    if check["size"] is None or check["size"] > 0.3 or check["unlike"]:
+    if check["size"] is None or check["size"] > ACCURATE or check["unlike"]:
         found.append(
             "the emulator differs from the engine at samples of the posterior "
             f"({check['unlike']} of {check['runs']} runs end differently); take narrower priors"
         )
-    if emulator["crowded"] > 0.01:
+    if emulator["crowded"] > CROWD:
         found.append("the posterior reaches beyond the region of the emulator: its intervals are too narrow")
     if not posterior["converged"]:
-        found.append("the chain is shorter than 50 autocorrelation times: intervals are uncertain")
+        found.append(f"the chain is shorter than {LENGTH} autocorrelation times: intervals are uncertain")
     loose = [one["combination"] for one in results["directions"] if one["verdict"] == "not separated"]
     if loose:
         found.append("the data do not separate " + "; nor ".join(loose) + ": what is said of these comes from the priors")

@@ -106,7 +106,7 @@ def indices(problem, trained, seed):
     Unknowns that need no run are left out: they shift and scale times alone.
     """
     count = problem.engine_count
-    time = common_time(trained.batch(_points(problem, np.random.default_rng(seed).random((2000, count)))))
+    time = common_time(trained.batch(problem.points(np.random.default_rng(seed).random((2000, count)))))
     repeats = [_repeat(problem, trained, time, seed + number) for number in range(REPEATS)]
     found = []
     for name in repeats[0]:
@@ -132,11 +132,6 @@ def _error(values):
     return float(values.std(ddof=1) / np.sqrt(len(values)))
 
 
-def _points(problem, fractions):
-    """Engine coordinates (n, engine_count) of fractions of the priors."""
-    return np.column_stack([problem.priors[i].from_fraction(fractions[:, i]) for i in range(problem.engine_count)])
-
-
 def _repeat(problem, trained, time, seed):
     """{result: (first (d,), total (d,), mean, deviation, fraction that exists)} from one scrambled sequence."""
     count = problem.engine_count
@@ -147,7 +142,7 @@ def _repeat(problem, trained, time, seed):
         mixed = a.copy()
         mixed[:, i] = b[:, i]
         sets.append(mixed)
-    results = [results_of(trained.batch(_points(problem, fractions)), time) for fractions in sets]
+    results = [results_of(trained.batch(problem.points(fractions)), time) for fractions in sets]
     found = {}
     for name in results[0]:
         f = np.array([result[name] for result in results])

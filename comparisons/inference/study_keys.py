@@ -7,6 +7,7 @@ import re
 import unicodedata
 from dataclasses import dataclass
 
+from comparisons import ENGINES
 from comparisons.inference.text_file import ENCODINGS
 from comparisons.measures.quantities import columns
 
@@ -256,7 +257,7 @@ TIME_UNIT = Key("time_unit", Unit(tuple(TIMES), {}), "unit of the file's times",
 TABLES = {
     "[study]": (
         Key("case", Text("name or path of a case"), "name or path of a case", "standard"),
-        Key("engine", choice("boundary-integral", "phase-field"), "what makes the runs", "boundary-integral"),
+        Key("engine", choice(*ENGINES), "what makes the runs", ENGINES[0]),
         Key("horizon", POSITIVE, "µs: how far runs go unless they bud; without it, `time.end`"),
         Key("seed", Whole(0, MOST_SEED), "of all random numbers", 1),
     ),

@@ -216,18 +216,22 @@ def _largest_relative(records, name):
     return max(found, default=None)
 
 
-def flat_parameters(parameters):
-    """{"section.key": value} of parameters by section, which may hold sections; a top-level value keeps its name."""
+def flattened(tree, prefix=""):
+    """{"a.b": value} of nested dicts, as of parameters by section; of a list of dicts "a.0.b", any other list becomes text."""
     flat = {}
-    for name, value in parameters.items():
-        inner = flat_parameters(value) if isinstance(value, dict) else {}
-        flat.update({f"{name}.{key}": v for key, v in inner.items()} if isinstance(value, dict) else {name: value})
+    for key, value in tree.items():
+        if isinstance(value, list) and value and all(isinstance(one, dict) for one in value):
+            value = {str(i): one for i, one in enumerate(value)}
+        if isinstance(value, dict):
+            flat.update(flattened(value, f"{prefix}{key}."))
+        else:
+            flat[prefix + key] = ", ".join(map(str, value)) if isinstance(value, list) else value
     return flat
 
 
 def case_differences(a, b):
     """[{key, a, b}] for every parameter that differs, the engines' own sections left out; None where a run lacks it."""
-    flat_a, flat_b = flat_parameters(a), flat_parameters(b)
+    flat_a, flat_b = flattened(a), flattened(b)
     keys = [key for key in dict.fromkeys([*flat_a, *flat_b]) if key.split(".")[0] not in ENGINE_SECTIONS]
     return [
         {"key": key, "a": flat_a.get(key), "b": flat_b.get(key)} for key in keys if flat_a.get(key) != flat_b.get(key)
@@ -275,5 +279,5 @@ def describe(run, label):
         "end_us": float(run.history["time_us"][-1]),
         "budding_time_us": run.event_time("budding"),
         "alarms": [asdict(alarm) for alarm in run.alarms],
-        "basis": dict(basis(run)),
+        "basis": basis(record),
     }

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 class Quantity:
     """A number of a run.
 
-    column: where it stands in history.csv and in metrics.json, where it is in `unit`; title: what it is called; meaning: what it is;
-    roles: where it takes part, see columns(); swept: its column of sweep.csv, "" without one; plotted: unit of plots and what they
-    multiply the numbers with; logarithmic: whether its axis may span decades.
+    column: where it stands in history.csv, sweep.csv and metrics.json, in `unit`; title: what it is called; meaning: what it is;
+    roles: where it takes part, see columns(); plotted: unit of plots and what they multiply the numbers with; logarithmic: whether
+    its axis may span decades.
     """
 
     column: str
@@ -17,7 +17,6 @@ class Quantity:
     unit: str
     meaning: str
     roles: str
-    swept: str = ""
     plotted: tuple | None = None
     logarithmic: bool = False
 
@@ -44,7 +43,7 @@ class Quantity:
 
 #: Times of events, distances between two runs, then columns of history.csv.
 QUANTITIES = (
-    Quantity("budding_time_us", "Budding time", "µs", "when the neck radius falls below 5 nm", "certified", "budding_time_us"),
+    Quantity("budding_time_us", "Budding time", "µs", "when the neck radius falls below 5 nm", "certified swept"),
     Quantity("mean_distance_nm", "Mean distance", "nm", "symmetric, between curves, averaged over arc length", "distance"),
     Quantity("hausdorff_distance_nm", "Hausdorff distance", "nm", "symmetric, between curves", "distance"),
     Quantity(
@@ -52,33 +51,29 @@ QUANTITIES = (
         "Neck radius",
         "nm",
         "smallest distance from the axis below the bud",
-        "compared converging certified drawn data of_neck",
-        "neck_radius_nm",
+        "compared converging certified swept drawn data of_neck",
     ),
     Quantity(
         "bud_diameter_nm",
         "Bud diameter",
         "nm",
         "twice the largest radius above the neck",
-        "compared converging drawn data of_neck",
-        "lateral_diameter_nm",
+        "compared converging swept drawn data of_neck",
     ),
     Quantity(
         "bud_height_nm",
         "Bud height",
         "nm",
         "over the rim's level, of the point farthest from it",
-        "compared drawn data signed",
-        "height_nm",
+        "compared swept drawn data signed",
     ),
     Quantity(
         "membrane_area_nm2",
         "Membrane area",
         "nm²",
         "of the surface of revolution",
-        "compared converging certified drawn data",
-        "area_nm2",
-        ("10³ nm²", 1e-3),
+        "compared converging certified swept drawn data",
+        plotted=("10³ nm²", 1e-3),
     ),
     Quantity(
         "volume_extracellular_nm3",
@@ -93,8 +88,7 @@ QUANTITIES = (
         "Bending energy",
         "pN nm",
         "of the membrane",
-        "compared converging drawn",
-        "energy_pN_nm",
+        "compared converging swept drawn",
         logarithmic=True,
     ),
     Quantity(
@@ -111,17 +105,14 @@ QUANTITIES = (
 
 def columns(role):
     """{column: Quantity} of a role: "compared" (by two runs' difference at equal times), "distance" (between two runs),
-    "converging" (studied for ε → 0), "certified" (given with an error), "drawn" (against time), "data" (may be measured),
+    "converging" (studied for ε → 0), "certified" (given with an error), "swept" (in sweep.csv), "drawn" (against time), "data" (may be measured),
     "of_neck" (exists only where there is a neck), "signed" (may be negative)."""
     return {quantity.column: quantity for quantity in QUANTITIES if role in quantity.roles.split()}
 
 
 #: Those that many lists need.
 BUDDING = "budding_time_us"
-COMPARED, DISTANCES, DRAWN = columns("compared"), columns("distance"), columns("drawn")
-
-#: {column of sweep.csv: Quantity}, of what sweeps tabulate.
-SWEPT = {quantity.swept: quantity for quantity in QUANTITIES if quantity.swept}
+COMPARED, DISTANCES, DRAWN, SWEPT = (columns(role) for role in ("compared", "distance", "drawn", "swept"))
 
 #: {column: title and unit} of all.
 NAMES = {quantity.column: quantity.name for quantity in QUANTITIES}

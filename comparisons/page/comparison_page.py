@@ -5,9 +5,10 @@ import json
 
 import numpy as np
 
-from comparisons.drawing import style
+from comparisons.drawing import plots, style
 from comparisons.drawing.axes import half_width, long_after_budding, time_axis
-from comparisons.measures.metrics import ENGINE_SECTIONS, compared, flat_parameters, last_budding
+from comparisons.files import write_text
+from comparisons.measures.metrics import ENGINE_SECTIONS, compared, flattened, last_budding
 from comparisons.measures.quantities import COMPARED, DRAWN
 from comparisons.measures.words import basis
 from comparisons.page import html
@@ -44,8 +45,15 @@ LEAST_HEIGHT = 60.0
 LINE_POINTS = 500
 
 
+def write_page(a, b, metrics, directory):
+    """Write plots and report.html of two endoflow.Run objects and their metrics into directory (Path)."""
+    labels = [metrics["runs"][key]["label"] for key in "ab"]
+    drawn = plots.write_all(a, b, metrics, labels, directory)
+    write_text(directory / "report.html", report_html(a, b, metrics, drawn, directory))
+
+
 def report_html(a, b, metrics, drawn, directory):
-    """The report's text for two endoflow.Run objects, their metrics, and the plots drawn, {name: title}, in directory (Path)."""
+    """The page's text; drawn: {plot: title}."""
     labels = [metrics["runs"][key]["label"] for key in "ab"]
     data = json.dumps(report_data(a, b, metrics), allow_nan=False, separators=(",", ":"))
     sections = html.filled(
@@ -171,13 +179,14 @@ def times_table(records):
 
 def basis_table(a, b, labels):
     """What the numbers of both runs rest on."""
-    rows = [[escaped(what), escaped(x), escaped(y)] for (what, x), (_, y) in zip(basis(a), basis(b))]
+    of_a, of_b = basis(a.record), basis(b.record)
+    rows = [[escaped(what), escaped(of_a[what]), escaped(of_b[what])] for what in of_a]
     return html.table(["", *map(escaped, labels)], rows, "text")
 
 
 def parameters(a, b, labels):
     """All parameters of both runs; those that differ are marked, an engine's own only between runs of one engine."""
-    flat_a, flat_b = flat_parameters(a.parameters), flat_parameters(b.parameters)
+    flat_a, flat_b = flattened(a.parameters), flattened(b.parameters)
     rows, marked = [], []
     for number, key in enumerate(dict.fromkeys([*flat_a, *flat_b])):
         values = flat_a.get(key), flat_b.get(key)

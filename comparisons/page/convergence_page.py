@@ -7,9 +7,10 @@ import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
 
 from comparisons.drawing import style
-from comparisons.drawing.axes import vertical_range
+from comparisons.drawing.axes import draw_histories, plain_number, say_none, vertical_range
 from comparisons.drawing.plots import DRAWN_SPACING, legend_on_top, panels, save_all
 from comparisons.drawing.style import plt
+from comparisons.files import write_text
 from comparisons.measures.convergence import PAIRS, at_time, error_of, value_of
 from comparisons.measures.quantities import BUDDING, DISTANCES, DRAWN, NAMES
 from comparisons.page import html
@@ -30,15 +31,18 @@ LIMITS_NOTE = (
 )
 
 
-def write_all(sharp, diffuse, metrics, directory):
-    """Write every plot of a study's endoflow.Run, DiffuseRuns and metrics into directory; returns {name: title}."""
-    figures = {
+def write_page(sharp, diffuse, metrics, case, directory):
+    """Write plots and report.html of a study's endoflow.Run, DiffuseRuns and metrics into directory (Path).
+
+    case: {"section.key": value} of the parameters that all runs share.
+    """
+    plots = {
         "errors": ("Errors against ε, with the fitted orders p", errors(metrics)),
         "limits": (f"Values at {metrics['times_us'][-1]:.4g} µs and their limit ε → 0", limits(metrics)),
         "membranes": ("Membranes of all ε and the sharp one", membranes(sharp, diffuse, metrics["times_us"])),
         "histories": ("Histories", histories(sharp, diffuse)),
     }
-    return save_all(figures, directory)
+    write_text(directory / "report.html", convergence_html(metrics, case, save_all(plots, directory), directory))
 
 
 def shades(colours, count):
@@ -94,8 +98,8 @@ def _draw_errors(axes, quantity, lines, orders):
             axes.plot(x, fitted, color=colour, linewidth=1.2, linestyle=(0, (4, 2)))
             shown.append((fitted[np.argmin(x)], x.min(), colour, fit["order"]))
     if not axes.lines:
-        axes.set(xticks=[], yticks=[])
-        axes.text(0.5, 0.5, "not in these runs", transform=axes.transAxes, ha="center", color="#777777")
+        axes.set_xticks([])
+        say_none(axes, "not in these runs")
         return
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -115,7 +119,7 @@ def _epsilon_ticks(axes, lines):
         axes.set_ylim(middle / 3.2, middle * 3.2)
     if high < 100 * low:
         axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        axes.yaxis.set_major_formatter(plain_number)
     axes.yaxis.set_minor_formatter(NullFormatter())
 
 
@@ -168,8 +172,8 @@ def _draw_limit(axes, quantity, points, entry):
     axes.set_xlabel("ε (nm)")
     points = [(e, v) for e, v in points if v is not None]
     if not points or entry is None:
-        axes.set(xticks=[], yticks=[])
-        axes.text(0.5, 0.5, "not in these runs", transform=axes.transAxes, ha="center", color="#777777")
+        axes.set_xticks([])
+        say_none(axes, "not in these runs")
         return
     x, y = map(np.array, zip(*points))
     axes.set_xlim(-0.06 * x.max(), 1.06 * x.max())
@@ -229,17 +233,10 @@ def histories(sharp, diffuse):
     """Quantities against time of all runs."""
     colours = shades(EPSILONS, len(diffuse))
     figure, grid = panels(len(DRAWN))
-    for axes, (column, shown) in zip(grid, DRAWN.items()):
-        axes.plot(sharp.history["time_us"], shown.factor * sharp.history[column], color=SHARP, linewidth=3.6)
-        for one, colour in zip(diffuse, colours):
-            history = one.run.history
-            axes.plot(history["time_us"], shown.factor * history[column], color=colour, linewidth=1.3)
-        axes.set_title(shown.label)
-        axes.set_xlabel("time (µs)")
-        values = np.concatenate([run.history[column] for run in (sharp, *(one.run for one in diffuse))])
-        if not np.isfinite(values).any():
-            axes.set_yticks([])
-            axes.text(0.5, 0.5, "none in any run", transform=axes.transAxes, ha="center", color="#777777")
+    histories = [sharp.history, *(one.run.history for one in diffuse)]
+    looks = [{"color": SHARP, "linewidth": 3.6}, *({"color": colour, "linewidth": 1.3} for colour in colours)]
+    lines = [(history["time_us"], history, look) for history, look in zip(histories, looks)]
+    draw_histories(grid, DRAWN, lines, "none in any run")
     _name_runs(figure, diffuse, colours)
     return figure
 
@@ -251,11 +248,8 @@ def _name_runs(figure, diffuse, colours):
     legend_on_top(figure, handles, ["sharp", *(f"ε = {one.epsilon:g} nm" for one in diffuse)])
 
 
-def convergence_html(metrics, case_name, parameters, drawn, directory):
-    """The page of an ε → 0 study.
-
-    parameters: of the case, {"section.key": value}; drawn: {plot: title}.
-    """
+def convergence_html(metrics, case, drawn, directory):
+    """The page of an ε → 0 study; case: as of write_page(); drawn: {plot: title}."""
     epsilons = ", ".join(f"{run['epsilon_nm']:g}" for run in metrics["runs"])
     sections = [
         ("Plots", html.plots(drawn, directory)),
@@ -264,12 +258,12 @@ def convergence_html(metrics, case_name, parameters, drawn, directory):
         ("Distances and errors", records_table(metrics)),
         ("Runs", runs_table(metrics)),
         ("What the numbers rest on", basis_table(metrics)),
-        ("Parameters of the case", html.parameters_table(parameters)),
+        ("Parameters of the case", html.parameters_table(case)),
     ]
     return html.page(
         "endoflow converge",
         "Phase field to sharp membrane",
-        f"Case “{case_name}” · ε = {epsilons} nm",
+        f"Case “{case['case.name']}” · ε = {epsilons} nm",
         metrics["warnings"],
         cards(metrics),
         sections,

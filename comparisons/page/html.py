@@ -3,15 +3,22 @@
 import base64
 import html
 import re
+from collections import namedtuple
 from pathlib import Path
 
+from comparisons.measures.metrics import flattened
 from comparisons.measures.words import with_powers
+from endoflow.curves import arc_length, resample
 from endoflow.history import name_and_unit
 
 SOURCES = Path(__file__).resolve().parent / "assets"
 
 #: Entries of run.json that are no part of the provenance: told elsewhere on the page, or the same for every run (docs/outputs.md).
-TOLD = ("parameters", "alarms", "columns")
+TOLD = ("parameters", "alarms", "columns", "resolution")
+
+#: What one subject adds to a page: {name: (title, figure)}; (title, ready HTML value, note); (heading, ready HTML); a dict for
+#: each moment of what the page's scripts move.
+Part = namedtuple("Part", "figures cards sections frames")
 
 #: What the rest of run.json is.
 PROVENANCE = "Programs, machines, times, and what was noted on the way"
@@ -77,19 +84,6 @@ def quantity(value, digits, unit):
     return "none" if value is None else f'{figures(value, digits)} <span class="unit">{unit}</span>'
 
 
-def flattened(tree, prefix=""):
-    """{"a.b": value} of nested dicts; of a list of dicts "a.0.b", any other list becomes text."""
-    flat = {}
-    for key, value in tree.items():
-        if isinstance(value, list) and value and all(isinstance(one, dict) for one in value):
-            value = {str(i): one for i, one in enumerate(value)}
-        if isinstance(value, dict):
-            flat.update(flattened(value, f"{prefix}{key}."))
-        else:
-            flat[prefix + key] = ", ".join(map(str, value)) if isinstance(value, list) else value
-    return flat
-
-
 def page(command, heading, subtitle, warnings, cards, sections, directory):
     """A page's text. cards: [(title, ready HTML value, note)]; sections: [(heading, ready HTML)]; directory: Path."""
     return document(
@@ -143,6 +137,16 @@ def embedded(data):
     """JSON text for the page's scripts."""
     data = data.replace("</", "<\\/")
     return f'<script type="application/json" id="report-data">{data}</script>'
+
+
+#: Points of a curve that a page's scripts move, and digits of their numbers.
+POINTS, DIGITS = 90, 3
+
+
+def curves(r, z, *others):
+    """Lists of POINTS numbers for the page's scripts: a curve r, z (n,) and other values along it (n,) at equal arc length."""
+    spacing = arc_length(r, z)[-1] / (POINTS - 1) * (1 + 1e-9)
+    return [[round(float(value), DIGITS) for value in values] for values in resample(r, z, spacing, *others)]
 
 
 def section_texts(sections):

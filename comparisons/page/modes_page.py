@@ -6,9 +6,11 @@ import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
 
 from comparisons.drawing import style
+from comparisons.drawing.axes import distance, mark_time
 from comparisons.drawing.plots import save_all
 from comparisons.drawing.style import plt
 from comparisons.drawing.surfaces import Revolved
+from comparisons.files import write_text
 from comparisons.page import html, noise_plots
 from comparisons.page.html import escaped, figures, quantity
 from endoflow.curves import resample
@@ -37,33 +39,52 @@ SMALLEST_SHOWN = 1e-4
 #: Columns and rows of the picture of the shapes; displacement (nm) that is drawn.
 PANEL_TIMES, PANEL_MODES, DRAWN_DISPLACEMENT = 4, 3, 4.0
 
-#: Points of a meridian in the moving picture, and digits of their numbers.
-POINTS, DIGITS = 90, 3
-
 SCRIPTS = ("theme.js", "modes_view.js", "modes.js")
 
 
-def write_all(modes, directory):
-    """Write the plots of an endoflow.Modes into directory (Path); returns {name: title}."""
-    figures = {
+def write_page(modes, basis, directory):
+    """Write plots and report.html of an endoflow.Modes into directory (Path); basis: of the run."""
+    parts = [motion(modes)] + ([] if modes.noise is None else [noise_plots.part(modes.noise, modes.modes)])
+    drawn = save_all({name: entry for part in parts for name, entry in part.figures.items()}, directory)
+    frames = [{key: value for one in moment for key, value in one.items()} for moment in zip(*(part.frames for part in parts))]
+    data = {"modes": modes.modes, "frames": frames, "start": modes.last_index, "budding": modes.budding}
+    sections = [
+        ("Plots", html.plots(drawn, directory)),
+        *(section for part in parts for section in part.sections),
+        *html.common_basis_section(basis),
+    ]
+    subtitle = f"Perturbations cos mφ of an axisymmetric run, m = {modes.modes[0]} to {modes.modes[-1]}, to {modes.times[-1]:.4g} µs"
+    page = html.document(
+        "endoflow modes",
+        title="Does the bud stay round?: endoflow modes",
+        heading="Does the bud stay round?",
+        subtitle=escaped(subtitle),
+        cards=html.card_section([card for part in parts for card in part.cards]),
+        sections=html.source("modes.html") + html.section_texts(sections),
+        origin=f"in <code>{escaped(directory)}</code>",
+        scripts=SCRIPTS,
+        data=html.embedded(json.dumps(data, allow_nan=False, separators=(",", ":"))),
+    )
+    write_text(directory / "report.html", page)
+
+
+def motion(modes):
+    """What the modes themselves are on the page, an html.Part."""
+    plots = {
         "modes_rates": ("Largest growth rate of each mode", rates(modes)),
         "modes_perturbations": ("What 0.1 nm becomes", perturbations(modes)),
         "modes_shapes": ("The fastest mode's displacement, drawn 4 nm large", shapes(modes)),
     }
-    if modes.noise is not None:
-        figures |= noise_plots.plots(modes.noise)
-    return save_all(figures, directory)
+    sections = [
+        (f"Largest displacement (nm) {end_text(modes)}", perturbation_table(modes)),
+        ("Largest growth rates (1/µs)", rate_table(modes)),
+    ]
+    return html.Part(plots, cards(modes), sections, [frame(meridian, modes.modes) for meridian in modes.meridians])
 
 
 def colours(modes):
     """{m: colour}."""
     return {m: MODE_COLOURS(i / max(1, len(modes.modes) - 1)) for i, m in enumerate(modes.modes)}
-
-
-def mark_budding(axes, modes):
-    """A dotted line at the time of budding."""
-    if modes.budding is not None:
-        axes.axvline(modes.budding, color="#888888", linewidth=0.9, linestyle=":")
 
 
 def rates(modes):
@@ -75,7 +96,7 @@ def rates(modes):
     for axes in (left, right):
         axes.axhline(0, color="#444444", linewidth=0.8)
         axes.set_xlabel("time (µs)")
-        mark_budding(axes, modes)
+        mark_time(axes, modes.budding)
     left.set_title("Growth rate (1/µs)")
     right.set_title("The same about zero")
     top = max(rate.max() for rate in modes.rates.values())
@@ -99,7 +120,7 @@ def perturbations(modes):
         axes.set_xlabel("time (µs)")
         axes.set_yscale("log")
         axes.set_ylim(bottom=SMALLEST_SHOWN)
-        mark_budding(axes, modes)
+        mark_time(axes, modes.budding)
     grid.flat[0].set_ylabel("largest displacement (nm)")
     grid.flat[-1].legend(fontsize=7, ncols=2)
     return figure
@@ -134,7 +155,7 @@ def shapes(modes):
                 amount = DRAWN_DISPLACEMENT * (1 if side > 0 or m % 2 == 0 else -1) * mode.w
                 r, z = meridian.r + amount * meridian.normal_r, meridian.z + amount * meridian.normal_z
                 axes.plot(side * r, z, color=style.ENGINE_COLOURS["boundary-integral"][0], linewidth=1.6)
-            axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):g}")
+            axes.xaxis.set_major_formatter(distance)
     for axes in grid[-1]:
         axes.set_xlabel("r (nm)")
     return figure
@@ -154,31 +175,6 @@ def surface(meridian, spacing=SPACING):
         amount = revolved.around(values) * np.cos(m * revolved.azimuth)
         arrays[f"mode_{m}_displacement_nm"] = amount[:, None] * normal
     return revolved.points, revolved.quads, arrays
-
-
-def modes_html(modes, basis, drawn, directory):
-    """The page of an endoflow.Modes; basis: of the run; drawn: {plot: title}, written into directory (Path)."""
-    sections = [
-        ("Plots", html.plots(drawn, directory)),
-        (f"Largest displacement (nm) {end_text(modes)}", perturbation_table(modes)),
-        ("Largest growth rates (1/µs)", rate_table(modes)),
-        *([("Thermal noise", noise_plots.noise_table(modes.noise))] if modes.noise is not None else []),
-        *html.common_basis_section(basis),
-    ]
-    data = json.dumps(report_data(modes), allow_nan=False, separators=(",", ":"))
-    return html.document(
-        "endoflow modes",
-        title="Does the bud stay round?: endoflow modes",
-        heading="Does the bud stay round?",
-        subtitle=escaped(
-            f"Perturbations cos mφ of an axisymmetric run, m = {modes.modes[0]} to {modes.modes[-1]}, to {modes.times[-1]:.4g} µs"
-        ),
-        cards=html.card_section([*cards(modes), *(noise_plots.cards(modes.noise) if modes.noise is not None else [])]),
-        sections=html.source("modes.html") + html.section_texts(sections),
-        origin=f"in <code>{escaped(directory)}</code>",
-        scripts=SCRIPTS,
-        data=html.embedded(data),
-    )
 
 
 def end_text(modes):
@@ -228,47 +224,21 @@ def rate_table(modes):
     return html.table(["t (µs)", *(f"m = {m}" for m in modes.modes)], rows)
 
 
-def report_data(modes):
-    """What the picture in space needs: for each time the meridian and the modes, POINTS numbers each."""
-
-    def rounded(values):
-        return [round(float(value), DIGITS) for value in values]
-
-    frames = []
-    noisy = [None] * len(modes.meridians) if modes.noise is None else modes.noise.meridians
-    for meridian, noise in zip(modes.meridians, noisy):
-        chosen = [meridian.modes[m] for m in modes.modes]
-        sigmas = [] if noise is None else [noise.rms[m] for m in modes.modes]
-        length = np.concatenate(([0], np.cumsum(np.hypot(np.diff(meridian.r), np.diff(meridian.z)))))[-1]
-        r, z, n_r, n_z, c, *w = resample(
-            meridian.r,
-            meridian.z,
-            length / (POINTS - 1) * (1 + 1e-9),
-            meridian.normal_r,
-            meridian.normal_z,
-            meridian.c,
-            *(shapes.w for shapes in chosen),
-            *(shapes.worst / max(np.abs(shapes.worst).max(), 1e-300) for shapes in chosen),
-            *(sigma / sigma.max() for sigma in sigmas),
-        )
-        count = len(chosen)
-        frames.append(
-            {
-                "time": meridian.time,
-                "r": rounded(r),
-                "z": rounded(z),
-                "nr": rounded(n_r),
-                "nz": rounded(n_z),
-                "c": rounded(c),
-                "fastest": [rounded(values) for values in w[:count]],
-                "worst": [rounded(values) for values in w[count : 2 * count]],
-                "rates": [float(f"{shapes.growth:.4g}") for shapes in chosen],
-                "peaks": [float(f"{np.abs(shapes.worst).max():.3g}") for shapes in chosen],
-            }
-        )
-        if noise is not None:
-            frames[-1] |= {
-                "noise": [rounded(values) for values in w[2 * count :]],
-                "sigmas": [float(f"{sigma.max():.3g}") for sigma in sigmas],
-            }
-    return {"modes": modes.modes, "frames": frames, "start": modes.last_index, "budding": modes.budding}
+def frame(meridian, modes):
+    """What the picture in space needs of a moment: the meridian and the modes."""
+    chosen = [meridian.modes[m] for m in modes]
+    worst = [shapes.worst / max(np.abs(shapes.worst).max(), 1e-300) for shapes in chosen]
+    fields = [meridian.normal_r, meridian.normal_z, meridian.c, *(shapes.w for shapes in chosen), *worst]
+    r, z, normal_r, normal_z, c, *w = html.curves(meridian.r, meridian.z, *fields)
+    return {
+        "time": meridian.time,
+        "r": r,
+        "z": z,
+        "nr": normal_r,
+        "nz": normal_z,
+        "c": c,
+        "fastest": w[: len(chosen)],
+        "worst": w[len(chosen) :],
+        "rates": [float(f"{shapes.growth:.4g}") for shapes in chosen],
+        "peaks": [float(f"{np.abs(shapes.worst).max():.3g}") for shapes in chosen],
+    }

@@ -3,7 +3,9 @@
 import numpy as np
 
 from comparisons.drawing import style
+from comparisons.drawing.axes import distance, mark_time
 from comparisons.drawing.style import plt
+from comparisons.page import html
 from comparisons.page.html import figures, quantity, table
 
 #: Panels of the picture of the membrane with its noise.
@@ -12,20 +14,28 @@ PANELS = 4
 COLOUR, INHERITED = style.ENGINE_COLOURS["boundary-integral"][0], style.ENGINE_COLOURS["phase-field"][0]
 
 
-def plots(noise):
-    """{name: (title, figure)} of an endoflow.Noise."""
-    return {
+def part(noise, modes):
+    """What an endoflow.Noise is on the page, an html.Part; modes: the azimuthal modes of the picture in space."""
+    plots = {
         "noise_histories": ("Thermal noise: one standard deviation about the run", histories(noise)),
         "noise_spreads": ("Thermal noise that the axisymmetric run does not have", spreads(noise)),
         "noise_shapes": ("The membrane with one standard deviation of its thermal noise", shapes(noise)),
     }
+    frames = [frame(meridian, modes) for meridian in noise.meridians]
+    return html.Part(plots, cards(noise), [("Thermal noise", noise_table(noise))], frames)
+
+
+def frame(meridian, modes):
+    """What the picture in space needs of a moment: the spread by each mode over its largest value, and that, nm."""
+    sigmas = [meridian.rms[m] for m in modes]
+    _, _, *noise = html.curves(meridian.r, meridian.z, *(sigma / sigma.max() for sigma in sigmas))
+    return {"noise": noise, "sigmas": [float(f"{sigma.max():.3g}") for sigma in sigmas]}
 
 
 def mark_times(axes, noise):
     """Dotted lines at budding, and where linear noise ends."""
-    for time, line in ((noise.budding, ":"), (noise.linear_until, "--")):
-        if time is not None:
-            axes.axvline(time, color="#888888", linewidth=0.9, linestyle=line)
+    mark_time(axes, noise.budding)
+    mark_time(axes, noise.linear_until, "--")
 
 
 def histories(noise):
@@ -65,8 +75,7 @@ def spreads(noise):
 
 def shapes(noise):
     """Meridians with the band of all modes along their normals, at times up to budding."""
-    last = len(noise.times) - 1 if noise.budding is None else int(np.argmin(np.abs(noise.times - noise.budding)))
-    chosen = np.unique(np.linspace(0, last, PANELS).round().astype(int))
+    chosen = np.unique(np.linspace(0, noise.last_index, PANELS).round().astype(int))
     figure, panels = plt.subplots(
         1, len(chosen), figsize=(10.6, 3.4), sharex=True, sharey=True, squeeze=False, layout="constrained"
     )
@@ -81,7 +90,7 @@ def shapes(noise):
             axes.fill(mirror * band_r, band_z, color=COLOUR, alpha=0.3, linewidth=0)
             axes.plot(mirror * meridian.r, meridian.z, color=COLOUR, linewidth=1.2)
         axes.set(title=f"t = {meridian.time:.3g} µs", xlabel="r (nm)", aspect="equal")
-        axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):g}")
+        axes.xaxis.set_major_formatter(distance)
     return figure
 
 

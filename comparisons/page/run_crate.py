@@ -3,7 +3,7 @@
 https://www.researchobject.org/ro-crate/specification/1.1/
 """
 
-from comparisons.measures.metrics import flat_parameters
+from comparisons.measures.metrics import flattened
 
 #: What the files of a run are: name, title, media type.
 FILES = (
@@ -31,7 +31,7 @@ def metadata(run, licence=None):
     files = [entry for entry in FILES if (run.directory / entry[0]).is_file()]
     folders = [entry for entry in FOLDERS if (run.directory / entry[0]).is_dir()]
     parts = [{"@id": name} for name, *_ in (*files, *folders)]
-    parameters = flat_parameters(run.parameters)
+    parameters = flattened(run.parameters)
     name = parameters.get("case.name", "run")
     root = {
         "@id": "./",

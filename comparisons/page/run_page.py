@@ -3,10 +3,12 @@
 import numpy as np
 
 from comparisons.drawing import style
+from comparisons.drawing.axes import draw_histories, mark_time
 from comparisons.drawing.pictures import Panel, gallery
 from comparisons.drawing.plots import panels, save_all
+from comparisons.files import write_text
 from comparisons.measures.along import Along
-from comparisons.measures.metrics import flat_parameters
+from comparisons.measures.metrics import flattened
 from comparisons.measures.quantities import DRAWN
 from comparisons.measures.words import basis
 from comparisons.page import html
@@ -19,13 +21,13 @@ from endoflow.run_state import unfinished
 PANELS = 4
 
 
-def write_all(run, directory):
-    """Write the plots of an endoflow.Run into directory (Path); returns {name: title}."""
-    figures = {
+def write_page(run, directory):
+    """Write plots and report.html of an endoflow.Run into directory (Path)."""
+    plots = {
         "run_membranes": ("The membrane, coloured by molecule concentration c", membranes(run)),
         "run_histories": ("Histories", histories(run)),
     }
-    return save_all(figures, directory)
+    write_text(directory / "report.html", run_html(run, save_all(plots, directory), directory))
 
 
 def membranes(run):
@@ -44,17 +46,10 @@ def histories(run):
     along = Along(run)
     figure, grid = panels(len(DRAWN))
     colour = style.ENGINE_COLOURS.get(run.engine, style.SECOND_RUN_COLOUR)[0]
-    for axes, (column, shown) in zip(grid, DRAWN.items()):
-        values = run.history[column] * shown.factor
-        axes.set_title(shown.label)
-        axes.set_xlabel(along.label)
-        if not np.isfinite(values).any():
-            axes.text(0.5, 0.5, "none in this run", transform=axes.transAxes, ha="center", color="#777777")
-            axes.set_yticks([])
-            continue
-        axes.plot(along.values, values, color=colour, marker="o" if len(values) == 1 else "")
-        if run.event_time("budding") is not None:
-            axes.axvline(run.event_time("budding"), color="#888888", linewidth=0.9, linestyle=":")
+    look = {"color": colour, "marker": "o" if len(along.values) == 1 else ""}
+    draw_histories(grid, DRAWN, [(along.values, run.history, look)], "none in this run", along.label)
+    for axes in grid:
+        mark_time(axes, run.event_time("budding"))
     return figure
 
 
@@ -64,10 +59,10 @@ def run_html(run, drawn, directory):
     record = {key: value for key, value in run.record.items() if key != "certificate"}
     sections = [
         *([("Certified", certified)] if certified else []),
-        ("What the numbers rest on", html.facts(basis(run))),
+        ("What the numbers rest on", html.facts(basis(run.record).items())),
         ("Plots", html.plots(drawn, directory)),
         ("Last row of history.csv", last_row(run)),
-        ("Parameters", html.folded("All parameters of the run", html.parameters_table(flat_parameters(run.parameters)))),
+        ("Parameters", html.folded("All parameters of the run", html.parameters_table(flattened(run.parameters)))),
         ("Provenance", html.folded(html.PROVENANCE, html.provenance_table([record], [""]))),
     ]
     name = run.parameters.get("case", {}).get("name", "run")

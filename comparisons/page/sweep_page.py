@@ -4,12 +4,14 @@ import numpy as np
 from matplotlib.ticker import NullFormatter, NullLocator
 
 from comparisons.drawing import style
+from comparisons.drawing.axes import say_none
 from comparisons.drawing.plots import legend_on_top, panels, save
 from comparisons.drawing.style import plt
-from comparisons.files import as_number
+from comparisons.files import as_number, write_text
 from comparisons.measures.quantities import BUDDING, SWEPT
 from comparisons.page import html
-from comparisons.studies.sweep_table import mixed_programs
+from comparisons.studies.members import axis_label
+from comparisons.studies.sweep_table import complaints, engines_of, mixed_programs
 
 #: Columns of sweep.csv that are drawn, with their titles; the first three make the heat maps.
 QUANTITIES = {
@@ -27,12 +29,18 @@ LEAST_SPREAD = 1e-6
 PADDING = {"w_pad": 0.08, "h_pad": 0.08}
 
 
-def write_all(rows, keys, units, directory):
-    """Write the plots of a sweep's rows (as of sweep_table) over its varied keys into directory; returns {name: title}.
+def write_page(rows, keys, units, convention, basis, directory):
+    """Write plot and report.html of a sweep's rows (as of sweep_table) over its varied keys into directory (Path).
 
-    units: {key: unit} of keys that have one. There are none for more than two varied keys.
+    units: {key: unit} of keys that have one; basis: of its runs.
     """
-    labels = [f"{key} ({units[key]})" if key in units else key for key in keys]
+    drawn = write_plot(rows, keys, units, directory)
+    write_text(directory / "report.html", sweep_html(rows, keys, convention, basis, drawn, directory))
+
+
+def write_plot(rows, keys, units, directory):
+    """{name: title} of the plot, written into directory; there is none for more than two varied keys."""
+    labels = [axis_label(key, units) for key in keys]
     if len(keys) == 1:
         title, figure = f"Results against {keys[0]}", lines(rows, keys[0], labels[0])
     elif len(keys) == 2:
@@ -41,11 +49,6 @@ def write_all(rows, keys, units, directory):
         return {}
     save(figure, directory, "sweep")
     return {"sweep": title}
-
-
-def engines_of(rows):
-    """The engines of some rows, in their order."""
-    return list(dict.fromkeys(row["engine"] for row in rows))
 
 
 def positions(texts):
@@ -68,8 +71,7 @@ def lines(rows, key, label):
         axes.ticklabel_format(axis="y", useOffset=False)
         keep_apart(axes)
         if not any(row[column] is not None for row in rows):
-            axes.set_yticks([])
-            axes.text(0.5, 0.5, "none in any run", transform=axes.transAxes, ha="center", color="#777777")
+            say_none(axes, "none in any run")
     for axes in grid:
         axes.set_xlabel(label)
         _set_axis(axes, texts, places, numeric)
@@ -161,11 +163,10 @@ def _draw_map(axes, values, x, y):
 
 
 def sweep_html(rows, keys, convention, basis, drawn, directory):
-    """The page of a sweep: its rows (as of sweep_table) over the varied keys; basis: of its runs; drawn: {plot: title}."""
-    failed = [f"{row['directory']} failed: {row['exit_reason']}" for row in rows if row["state"] == "failed"]
-    alarmed = [f"{row['directory']}: accuracy alarm: {row['alarms']}" for row in rows if row["alarms"]]
+    """The page's text; drawn: {plot: title}."""
     mixed = [sentence] if (sentence := mixed_programs(rows)) else []
+    alarmed = any(row["alarms"] for row in rows)
     subtitle = f"{len(rows)} runs · curvature convention {convention} · {'with' if alarmed else 'no'} accuracy alarms"
     sections = [("Plots", html.plots(drawn, directory))] * bool(drawn) + [("Runs", html.rows_table(rows, 5))]
     sections += html.common_basis_section(basis)
-    return html.page("endoflow sweep", " and ".join(keys), subtitle, failed + alarmed + mixed, [], sections, directory)
+    return html.page("endoflow sweep", " and ".join(keys), subtitle, complaints(rows) + mixed, [], sections, directory)

@@ -2,8 +2,9 @@
 
 from dataclasses import dataclass, field
 
+from comparisons import BOUNDARY_INTEGRAL, PHASE_FIELD
 from comparisons.drawing.style import plt
-from comparisons.paper.item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, Wanted, is_run, state_of, text, value_at
+from comparisons.paper.item import Printed, Result, Wanted, is_run, state_of, text, value_at
 from comparisons.paper.printed import QUICK_TIME, TIME, quick_sentence, settings
 from comparisons.paper.table2 import PAPER_AREA
 

@@ -2,10 +2,12 @@
 
 import itertools
 
+from scipy.constants import Boltzmann
+
 from comparisons.drawing.style import plt
 from comparisons.errors import StudyError
 from comparisons.paper.figures import COLOURS
-from comparisons.paper.item import Printed, Result, held, text
+from comparisons.paper.item import Printed, Result, held, no_runs, text
 
 TITLE = "What the collar of a neck has to do"
 SOURCE = "no paper's figure: branches of `endoflow statics --hold`"
@@ -17,12 +19,11 @@ QUICK_RADII, QUICK_TENSIONS = (22, 36), (0.02,)
 #: The energy is the potential of the force where molecules stay in the material.
 MOLECULES = {"molecules.transport": "advection"}
 
-THERMAL = 4.28  # k_B T at 310 K, pN nm
+#: Temperature (K) of a cell, and k_B T there in pN nm, to three digits.
+TEMPERATURE = 310
+THERMAL = round(1e21 * Boltzmann * TEMPERATURE, 2)
 
-
-def wanted(quick):
-    """No runs: branches are made with the item."""
-    return []
+wanted = no_runs
 
 
 def branch_of(radius, tension):
@@ -109,7 +110,7 @@ def result(runs, quick):
     ]
     remarks = [
         "A barrier is the highest rise of the work ∫ f dR on the way from the widest neck there is to "
-        f"{END} nm, in units of {THERMAL:g} pN nm (310 K). The molecules stay in the material, so that the work is the change of the energy.",
+        f"{END} nm, in units of {THERMAL:g} pN nm ({TEMPERATURE} K). The molecules stay in the material, so that the work is the change of the energy.",
         "Scission changes the energy by 4π κ_G more (membrane.gaussian_stiffness), which no shape on the way knows.",
         "Where a branch has folds, a collar that sets the radius jumps from one shape to another and pays what lies between them.",
         "A branch ends early where the bud touches the membrane around its neck (membrane-crosses-itself), or where another "

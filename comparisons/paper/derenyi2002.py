@@ -4,7 +4,7 @@ import math
 
 from comparisons.drawing.style import plt
 from comparisons.paper.figures import COLOURS
-from comparisons.paper.item import Printed, Result, followed, text
+from comparisons.paper.item import Printed, Result, followed, no_runs, text
 
 TITLE = "A tube pulled from a membrane (Derényi, Jülicher & Prost 2002)"
 SOURCE = "I. Derényi, F. Jülicher, J. Prost, Phys. Rev. Lett. 88, 238101 (2002)"
@@ -15,10 +15,7 @@ STIFFNESS, TENSION = 100.0, 0.1
 #: Radii (nm) of the membrane's rim, and the box's height.
 RADII, HEIGHT = (80, 200), 700
 
-
-def wanted(quick):
-    """No runs: branches are made with the item."""
-    return []
+wanted = no_runs
 
 
 def plateau_force():

@@ -14,6 +14,7 @@ from comparisons.paper.item import (
     text,
     value_at,
 )
+from comparisons.studies.sweep_table import engines_of
 
 TITLE = "Fig. 3: Cahn–Hilliard and Fickian transport"
 TRANSPORTS = {"standard": "Cahn–Hilliard", "fickian": "Fickian"}
@@ -58,7 +59,7 @@ def result(runs, quick):
     """See item.Result."""
     rows = rows_of(runs)
     of = {(row["transport"], row["engine"]): row for row in rows}
-    engines = list(dict.fromkeys(row["engine"] for row in rows))
+    engines = engines_of(rows)
 
     def beside(column, digits=4):
         return {e: " / ".join(text(of[t, e][column], digits) for t in TRANSPORTS) for e in engines}

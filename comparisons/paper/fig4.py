@@ -7,7 +7,6 @@ import numpy as np
 from comparisons.drawing import style
 from comparisons.paper.figures import history_figure, history_names, membrane_in_fluid, moving_membrane, snapshots
 from comparisons.paper.item import (
-    NECK_CLOSED,
     Printed,
     Result,
     both_engines,
@@ -19,6 +18,8 @@ from comparisons.paper.item import (
     state_of,
     text,
 )
+from comparisons.studies.members import NECK_CLOSED
+from comparisons.studies.sweep_table import engines_of
 
 TITLE = "Fig. 4: without flow and with flow"
 DYNAMICS = {"geometric": "without flow", "standard": "with flow"}
@@ -93,7 +94,7 @@ def pinch_off_words(row):
 def result(runs, quick):
     """See item.Result."""
     rows = filled([row(name, engine, run) for name in DYNAMICS for engine, run in runs[name].items()])
-    engines = list(dict.fromkeys(one["engine"] for one in rows))
+    engines = engines_of(rows)
 
     def of(name, column, digits=4):
         found = {one["engine"]: one.get(column) for one in rows if one["dynamics"] == name}

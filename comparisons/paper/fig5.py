@@ -1,11 +1,13 @@
 """Fig. 5: shapes at 20 µs for patches of different radius."""
 
+from comparisons import BOUNDARY_INTEGRAL, PHASE_FIELD
 from comparisons.drawing import style
 from comparisons.drawing.pictures import Panel, gallery
 from comparisons.paper import patch_sweep
 from comparisons.paper.figures import ended_because, sharp_of, with_line
-from comparisons.paper.item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, is_run, last_time, quick_remark, state_of
+from comparisons.paper.item import Printed, Result, is_run, last_time, quick_remark, state_of
 from comparisons.paper.patch_sweep import STATIONARY, name_of
+from comparisons.studies.sweep_table import engines_of
 
 TITLE = "Fig. 5: stationary shapes by patch radius"
 
@@ -45,7 +47,7 @@ def by_shape(rows, engine):
 def result(runs, quick):
     """See item.Result."""
     rows = patch_sweep.table(runs)
-    engines = patch_sweep.engines_of(rows)
+    engines = engines_of(rows)
 
     def at(radius, column, digits=3):
         found = {r["engine"]: r[column] for r in rows if r["patch_radius_nm"] == radius}

@@ -1,23 +1,16 @@
 """Fig. 6: diameter and neck radius at 20 µs against the patch radius."""
 
 import numpy as np
+from scipy.stats import linregress
 
+from comparisons import PHASE_FIELD
 from comparisons.drawing import style
 from comparisons.drawing.style import plt
 from comparisons.paper import patch_sweep
-from comparisons.paper.item import (
-    NECK_CLOSED,
-    PHASE_FIELD,
-    Printed,
-    Result,
-    Wanted,
-    end_of,
-    final_value,
-    is_run,
-    quick_remark,
-    text,
-)
+from comparisons.paper.item import Printed, Result, Wanted, end_of, final_value, is_run, quick_remark, text
 from comparisons.paper.patch_sweep import EARLY, STATIONARY, of_engine
+from comparisons.studies.members import NECK_CLOSED
+from comparisons.studies.sweep_table import engines_of
 
 TITLE = "Fig. 6: vesicle diameter and neck radius by patch radius"
 
@@ -63,15 +56,14 @@ def line_fit(x, y):
     """(slope, intercept, R²) of the straight line through y(x); None for fewer than three points or a constant."""
     if len(x) < 3 or np.ptp(y) == 0:
         return None
-    slope, intercept = np.polyfit(x, y, 1)
-    rest = ((y - slope * x - intercept) ** 2).sum() / ((y - y.mean()) ** 2).sum()
-    return float(slope), float(intercept), float(1 - rest)
+    line = linregress(x, y)
+    return line.slope, line.intercept, line.rvalue**2
 
 
 def draw(rows):
     """Diameter and neck radius against the patch radius."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.9), layout="constrained")
-    for engine in patch_sweep.engines_of(rows):
+    for engine in engines_of(rows):
         look = {"color": style.ENGINE_COLOURS[engine][0], "label": style.ENGINE_NAMES[engine], **style.LOOKS[engine]}
         x, y = of_engine(rows, engine, "bud_diameter_nm")
         left.plot(x, y, **look)
@@ -102,7 +94,7 @@ def neck_minimum(rows, engine, column):
 def result(runs, quick):
     """See item.Result."""
     rows = patch_sweep.table(runs)
-    engines = patch_sweep.engines_of(rows)
+    engines = engines_of(rows)
     fits = {engine: line_fit(*of_engine(rows, engine, "bud_diameter_nm")) for engine in engines}
     at_36 = {r["engine"]: r["bud_diameter_nm"] for r in rows if r["patch_radius_nm"] == PAPER_RADIUS}
     linear = {e: "–" if f is None else f"{f[0]:.3g} r_c + {f[1]:.3g} nm, R² = {f[2]:.4f}" for e, f in fits.items()}

@@ -1,10 +1,12 @@
 """Fig. 7: time of budding against the patch radius."""
 
+from comparisons import PHASE_FIELD
 from comparisons.drawing import style
 from comparisons.drawing.style import plt
 from comparisons.paper import patch_sweep
-from comparisons.paper.item import PHASE_FIELD, Printed, Result, quick_remark, text
+from comparisons.paper.item import Printed, Result, quick_remark, text
 from comparisons.paper.patch_sweep import best, of_engine
+from comparisons.studies.sweep_table import engines_of
 
 TITLE = "Fig. 7: budding time by patch radius"
 
@@ -23,7 +25,7 @@ def wanted(quick):
 def draw(rows):
     """Budding time against patch radius and against the diameter at budding."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.9), sharey=True, layout="constrained")
-    for engine in patch_sweep.engines_of(rows):
+    for engine in engines_of(rows):
         look = {"color": style.ENGINE_COLOURS[engine][0], "label": style.ENGINE_NAMES[engine], **style.LOOKS[engine]}
         x, y = of_engine(rows, engine, "budding_time_us")
         left.plot(x, y, **look)
@@ -61,7 +63,7 @@ def fastest(rows, engine):
 def result(runs, quick):
     """See item.Result."""
     rows = patch_sweep.table(runs)
-    engines = patch_sweep.engines_of(rows)
+    engines = engines_of(rows)
     found = {engine: fastest(rows, engine) for engine in engines}
 
     def at_36(column):

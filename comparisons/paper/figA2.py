@@ -4,10 +4,11 @@ import csv
 
 import numpy as np
 
+from comparisons import BOUNDARY_INTEGRAL
 from comparisons.drawing.plots import legend_on_top
 from comparisons.drawing.style import plt
 from comparisons.paper.figures import COLOURS, history_figure
-from comparisons.paper.item import BOUNDARY_INTEGRAL, Printed, Result, Wanted, is_run, text, value_at
+from comparisons.paper.item import Printed, Result, Wanted, is_run, text, value_at
 from comparisons.studies.members import answer
 
 TITLE = "Fig. A.2: constitutive laws"

@@ -2,12 +2,15 @@
 
 import numpy as np
 
+from comparisons import BOUNDARY_INTEGRAL
 from comparisons.drawing import style
+from comparisons.drawing.axes import draw_histories, plain_number
 from comparisons.drawing.pictures import Panel, fluid_arrows, gallery, membrane_arrows
 from comparisons.drawing.plots import legend_on_top
 from comparisons.drawing.style import plt
 from comparisons.measures.quantities import DRAWN
-from comparisons.paper.item import BOUNDARY_INTEGRAL, NECK_CLOSED, end_of, is_run, last_time, state_of
+from comparisons.paper.item import end_of, is_run, last_time, state_of
+from comparisons.studies.members import NECK_CLOSED
 
 COLUMNS = ("neck_radius_nm", "bud_diameter_nm", "bud_height_nm")
 
@@ -33,28 +36,21 @@ def history_figure(runs, names, columns=COLUMNS):
     """Columns against time (logarithmic); names: {(run name, engine): legend text}. A run's colour is its name's."""
     order = list(dict.fromkeys(name for name, _ in names))
     figure, grid = plt.subplots(1, len(columns), figsize=(10.6, 3.6), layout="constrained")
-    handles, texts = [], []
+    lines, texts = [], []
     for (name, engine), legend in names.items():
         run = runs[name].get(engine)
-        if not is_run(run):
-            continue
-        look = {"color": COLOURS[order.index(name) % len(COLOURS)], "linestyle": LINES[engine]}
-        for axes, column in zip(grid, columns):
-            values = run.history[column] * DRAWN[column].factor
-            line = axes.plot(run.history["time_us"], values, **look)
-        handles.append(line[0])
-        texts.append(legend)
+        if is_run(run):
+            look = {"color": COLOURS[order.index(name) % len(COLOURS)], "linestyle": LINES[engine]}
+            lines.append((run.history["time_us"], run.history, look))
+            texts.append(legend)
+    draw_histories(grid, {column: DRAWN[column] for column in columns}, lines, "none in any run")
+    handles = grid[0].get_lines()
     last = max((axes.dataLim.x1 for axes in grid if np.isfinite(axes.dataLim.x1)), default=1.0)
-    for axes, column in zip(grid, columns):
-        axes.set_title(DRAWN[column].label)
+    for axes in grid:
         axes.set_xscale("log", nonpositive="mask")
-        axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        axes.xaxis.set_major_formatter(plain_number)
         axes.set_xlim(min(FIRST_SHOWN, FIRST_SHOWN * last), last)
-        if not np.isfinite(axes.dataLim.y1):
-            axes.text(0.5, 0.5, "none in any run", transform=axes.transAxes, ha="center", color="#777777")
-            axes.set_yticks([])
         axes.set_ylim(bottom=0)
-        axes.set_xlabel("time (µs)")
     if "neck_radius_nm" in columns and np.isfinite(grid[columns.index("neck_radius_nm")].dataLim.y1):
         grid[columns.index("neck_radius_nm")].axhline(
             style.BUDDING_NECK_RADIUS, color="#888888", linewidth=0.9, linestyle=":"

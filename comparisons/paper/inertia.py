@@ -1,7 +1,8 @@
 """What inertia does: (32) with and without its first term, to 0.5 µs."""
 
+from comparisons import BOUNDARY_INTEGRAL, PHASE_FIELD
 from comparisons.paper.figures import history_figure
-from comparisons.paper.item import BOUNDARY_INTEGRAL, PHASE_FIELD, Printed, Result, Wanted, text, value_at
+from comparisons.paper.item import Printed, Result, Wanted, text, value_at
 from comparisons.paper.printed import QUICK_TIME, TIME
 
 TITLE = "Inertia: Navier–Stokes and Stokes to 0.5 µs"

@@ -7,15 +7,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import endoflow
-from comparisons import ROOT
+from comparisons import BOUNDARY_INTEGRAL, PHASE_FIELD, ROOT
 from comparisons.errors import RUN_FAILED, StudyError
 from comparisons.studies.members import program
 from endoflow.errors import last_word
-
-BOUNDARY_INTEGRAL, PHASE_FIELD = "boundary-integral", "phase-field"
-
-#: The exit_reason of a run whose neck closed.
-NECK_CLOSED = "neck-closed"
 
 #: `--quick`: the time (µs) a phase-field run is followed. Its layer is the paper's: a thicker one saves no time, because the cells
 #: are those of the patch's edge, 1.2 nm wide, and with ε = 1.7 or 2.4 nm the steps shrink from 0.1 µs on.
@@ -70,6 +65,11 @@ def both_engines(name, case, settings, end, quick, quick_end=QUICK_END, quick_se
         Wanted(name, BOUNDARY_INTEGRAL, case, settings, end),
         Wanted(name, PHASE_FIELD, case, diffuse, min(end, quick_end) if quick else end),
     ]
+
+
+def no_runs(quick):
+    """What an item wants whose branches of stationary shapes are made with it."""
+    return []
 
 
 def is_run(found):

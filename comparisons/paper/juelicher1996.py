@@ -8,7 +8,7 @@ from scipy.special import j0, j1
 
 from comparisons.drawing.style import plt
 from comparisons.paper.figures import COLOURS
-from comparisons.paper.item import Printed, Result, followed, text
+from comparisons.paper.item import Printed, Result, followed, no_runs, text
 
 TITLE = "Budding by line tension (Jülicher & Lipowsky 1996)"
 SOURCE = (
@@ -37,10 +37,7 @@ SETTINGS = {
     "molecules.line_energy": "2",
 }
 
-
-def wanted(quick):
-    """No runs: branches are made with the item."""
-    return []
+wanted = no_runs
 
 
 def domain_radius():

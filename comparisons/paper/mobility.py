@@ -3,9 +3,10 @@
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
+from comparisons import PHASE_FIELD
 from comparisons.drawing import style
 from comparisons.drawing.style import plt
-from comparisons.paper.item import PHASE_FIELD, Printed, Result, Wanted, text, value_at
+from comparisons.paper.item import Printed, Result, Wanted, text, value_at
 from comparisons.paper.printed import MOBILITY_PER_PRINTED, QUICK_TIME, TIME, quick_sentence, settings
 from comparisons.paper.table2 import PAPER, PAPER_AREA
 

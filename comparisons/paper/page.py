@@ -64,7 +64,7 @@ def runs_table(runs):
             if not is_run(found):
                 rows.append([*head, escaped(state_of(found)), "–", "–", "–", "–", "–"])
                 continue
-            record, (convention, resolved, alarmed) = found.record, [value for _, value in basis(found)]
+            record, (convention, resolved, alarmed) = found.record, basis(found.record).values()
             cells = [
                 escaped(state_of(found)),
                 setting(float(found.history["time_us"][-1]), 5),

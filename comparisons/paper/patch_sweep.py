@@ -105,11 +105,6 @@ def of_engine(rows, engine, column):
     return np.array(found, dtype=float).reshape(-1, 2).T
 
 
-def engines_of(rows):
-    """Engines that have a row, in their order."""
-    return list(dict.fromkeys(row["engine"] for row in rows))
-
-
 def best(x, y):
     """(radius, value) of the smallest of positive values y at radii x, refined by the parabola of log y through its
     neighbours (that of y itself can end below zero).

@@ -4,7 +4,7 @@ import math
 import tomllib
 
 from comparisons import ROOT
-from comparisons.measures.metrics import flat_parameters
+from comparisons.measures.metrics import flattened
 
 CASE = ROOT / "cases" / "printed.toml"
 
@@ -38,7 +38,7 @@ def settings(values, quick):
         "phase_field.paper.mobility": MOBILITY_PER_PRINTED * at["γ"],
         "phase_field.paper.max_step": 1e-3 * at["τ"],
     }
-    own = flat_parameters(tomllib.loads(CASE.read_text(encoding="utf-8")))
+    own = flattened(tomllib.loads(CASE.read_text(encoding="utf-8")))
     return {key: f"{value:.6g}" for key, value in wanted.items() if f"{value:.6g}" != f"{own[key]:.6g}"}
 
 

@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from comparisons import PHASE_FIELD
 from comparisons.drawing import style
 from comparisons.drawing.style import plt
-from comparisons.paper.item import PHASE_FIELD, Printed, Result, Wanted, end_of, is_run, state_of, text, value_at
+from comparisons.paper.item import Printed, Result, Wanted, end_of, is_run, state_of, text, value_at
 from comparisons.paper.printed import QUICK_TIME, SHARP_AREA, STANDARD, TIME, quick_sentence, settings
 
 TITLE = "Table 2: sensitivity of the membrane area"

@@ -4,9 +4,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from comparisons import BOUNDARY_INTEGRAL
 from comparisons.drawing.style import plt
 from comparisons.paper.figures import COLOURS
-from comparisons.paper.item import BOUNDARY_INTEGRAL, Printed, Result, Wanted, end_of, is_run, state_of, text, value_at
+from comparisons.paper.item import Printed, Result, Wanted, end_of, is_run, state_of, text, value_at
 from comparisons.paper.printed import TIME
 from comparisons.paper.table2 import PAPER_AREA
 

@@ -6,6 +6,7 @@ Settings of the runs with space, time and the layer refined, then the error from
 import math
 
 from comparisons.measures.quantities import BUDDING, columns
+from comparisons.studies.members import NECK_CLOSED
 
 CERTIFIED = columns("certified")
 
@@ -94,7 +95,7 @@ def values(run, time):
 
 def common_time(runs):
     """Where runs of one case are compared, µs; None when events ended all of them: each at its own end."""
-    if all(run.record["exit_reason"] in ("budded", "neck-closed") for run in runs):
+    if all(run.record["exit_reason"] in ("budded", NECK_CLOSED) for run in runs):
         return None
     return min(float(run.history["time_us"][-1]) for run in runs)
 
@@ -127,7 +128,8 @@ def certificate(run, parts):
             continue
         errors = {part: SAFETY * scale * abs(refined[name] - coarse[name]) for part, (coarse, refined, scale) in pairs.items()}
         unit, title = CERTIFIED[name].unit, CERTIFIED[name].title.lower().removesuffix(" time")
-        entries[name] = {"title": title, "value": value, "error": sum(errors.values()), "unit": unit, "parts": errors}
+        entry = {"title": title, "value": value, "error": sum(errors.values()), "unit": unit, "parts": errors}
+        entries[name] = {**entry, "in_words": in_words(entry)}
     return {"time_us": time, "safety": SAFETY, "values": entries}
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from comparisons.studies.members import read_record
 from endoflow.errors import last_word
+from endoflow.history import time_reached
 
 #: Seconds between two looks at the running members.
 POLL_INTERVAL = 0.1
@@ -201,12 +202,8 @@ def simulated_time(directory, since=0.0):
 
     A file older than `since` (time.time() in s) belongs to an earlier run and counts as none.
     """
+    path = directory / "history.csv"
     try:
-        with open(directory / "history.csv", "rb") as file:
-            if os.fstat(file.fileno()).st_mtime < since:
-                return 0.0
-            file.seek(max(0, file.seek(0, os.SEEK_END) - 8192))
-            rows = file.read().decode("ascii", "replace").split("\n")[:-1]
-        return float(rows[-1].split(",")[0])
-    except (OSError, ValueError, IndexError):
+        return time_reached(path) if path.stat().st_mtime >= since else 0.0
+    except OSError:
         return 0.0

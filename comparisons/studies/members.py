@@ -9,12 +9,13 @@ from urllib.parse import quote
 
 import endoflow
 from comparisons.errors import BAD_INPUT, IO_FAILURE, RUN_FAILED, StudyError
-from comparisons.measures.metrics import flat_parameters
+from comparisons.measures.metrics import flattened
 from endoflow.errors import last_word
 from endoflow.run_directory import damage_of
 from endoflow.run_state import KILLED, current_record
 
-ENGINES = ("boundary-integral", "phase-field")
+#: The exit_reason of a run, or of a branch of stationary shapes, whose neck closed.
+NECK_CLOSED = "neck-closed"
 
 #: Section of the case file that only the other engine reads.
 OTHER_SECTION = {"boundary-integral": "phase_field.", "phase-field": "boundary_integral."}
@@ -71,6 +72,11 @@ def resolved_parameters(case, settings):
 def parameter_units():
     """{"section.key": unit} of every parameter that has one, as `endoflow params` knows them."""
     return {row["name"]: row["unit"] for row in json.loads(answer("params", "--json")) if row["unit"]}
+
+
+def axis_label(key, units):
+    """A parameter's key with its unit, if it has one in parameter_units()."""
+    return f"{key} ({units[key]})" if key in units else key
 
 
 def checked_member(name, case, directory, engine, settings, values=None):
@@ -153,7 +159,7 @@ def covers(record, member):
 
 def differing_parameters(found, wanted, engine):
     """Keys "section.key" whose values differ in two sets of parameters and matter to the engine."""
-    found, wanted = flat_parameters(found), flat_parameters(wanted)
+    found, wanted = flattened(found), flattened(wanted)
     return [
         key
         for key in dict.fromkeys([*found, *wanted])

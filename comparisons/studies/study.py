@@ -91,6 +91,11 @@ class Study:
         """A line on the terminal while the study is at work."""
         print(text, flush=True)
 
+    def warn(self, texts):
+        """One line on stderr for each text."""
+        for text in texts:
+            print(f"endoflow {self.command}: warning: {shown(text)}", file=sys.stderr)
+
     def stopped(self, members, outcomes):
         """What is still written after an interruption: nothing."""
 

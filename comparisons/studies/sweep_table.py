@@ -1,7 +1,7 @@
 """sweep.csv: one row for each member of a sweep.
 
 Columns: the varied parameters (section.key), engine, state, exit_reason, time_us (reached), budding_time_us, then the
-last row of history.csv: neck_radius_nm, lateral_diameter_nm, height_nm, area_nm2, energy_pN_nm; alarms (names of the
+last row of history.csv: what is SWEPT, neck_radius_nm to bending_energy_pN_nm; alarms (names of the
 quantities that left the bounds of an accurate run, between semicolons); program (version and revision of all that took part
 in the run, between semicolons); wall_s; directory. Empty cells stand for "does not
 exist" (no neck, no budding, not run). Of a run that went on longer than the sweep asks for, time_us and what stands in
@@ -18,8 +18,8 @@ from endoflow import EndoflowError
 from endoflow.alarms import alarms_of
 from endoflow.history import read_history
 
-#: Columns of the table that come from the last row of history.csv: {column: history column}.
-FINAL = {column: quantity.column for column, quantity in SWEPT.items() if quantity.column != BUDDING}
+#: Columns of the table that come from the last row of history.csv.
+FINAL = tuple(column for column in SWEPT if column != BUDDING)
 
 
 def row(member, outcome=None):
@@ -57,6 +57,17 @@ def row(member, outcome=None):
     }
 
 
+def engines_of(rows):
+    """The engines of some rows, in their order."""
+    return list(dict.fromkeys(row["engine"] for row in rows))
+
+
+def complaints(rows):
+    """A sentence for each row whose run failed, then for each whose run raised alarms."""
+    failed = [f"{row['directory']} failed: {row['exit_reason']}" for row in rows if "failed" in (row.get("state"), row.get("outcome"))]
+    return failed + [f"{row['directory']}: accuracy alarm: {row['alarms']}" for row in rows if row["alarms"]]
+
+
 def programs(record):
     """Version and revision of every program that took part in a run (run.json as a dict), each once."""
     parts = [record.get("provenance"), *(record.get("segments") or [])]
@@ -81,11 +92,11 @@ def budding_time(record, end):
 def final_values(path, end):
     """{column of FINAL: number or None} from the last row of a history.csv (Path, or None), or at `end` (µs) if earlier."""
     try:
-        history = None if path is None else read_history(path, ("time_us", *FINAL.values()))
+        history = None if path is None else read_history(path, ("time_us", *FINAL))
     except EndoflowError:
         history = None
     if history is None:
         return dict.fromkeys(FINAL)
     time = min(end, history["time_us"][-1])
-    last = {column: float(np.interp(time, history["time_us"], history[source])) for column, source in FINAL.items()}
+    last = {column: float(np.interp(time, history["time_us"], history[column])) for column in FINAL}
     return {column: value if math.isfinite(value) else None for column, value in last.items()}

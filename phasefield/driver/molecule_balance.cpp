@@ -2,24 +2,15 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numeric>
+
+#include "shared/numerics/lagrange.h"
 
 namespace endoflow::phasefield {
 
 namespace {
 
 constexpr std::size_t most_rates = 4;
-
-/// The polynomial through the values at the times.
-double interpolated(const std::vector<double>& times, const std::vector<double>& values, double time) {
-    double sum = 0;
-    for (std::size_t j = 0; j < times.size(); ++j) {
-        double weight = values[j];
-        for (std::size_t m = 0; m < times.size(); ++m)
-            if (m != j) weight *= (time - times[m]) / (times[j] - times[m]);
-        sum += weight;
-    }
-    return sum;
-}
 
 }  // namespace
 
@@ -38,7 +29,9 @@ void MoleculeBalance::advance(double time, double rate) {
         rates_.pop_back();
     }
     // Simpson's rule is exact for cubics.
-    const double before = times_[1], middle = interpolated(times_, rates_, 0.5 * (before + time));
+    const double before = times_[1];
+    const std::vector<double> weights = lagrange_weights(times_, 0.5 * (before + time));
+    const double middle = std::inner_product(weights.begin(), weights.end(), rates_.begin(), 0.0);
     exchanged_ += (time - before) / 6 * (rates_[1] + 4 * middle + rate);
 }
 

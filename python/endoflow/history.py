@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import os
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,9 @@ from .errors import RERUN, RunDirectoryError
 
 #: Words at the end of a column's name that spell its unit; `per` starts the denominator.
 UNIT_WORDS = {"nm": "nm", "nm2": "nm²", "nm3": "nm³", "us": "µs", "s": "s", "pN": "pN"}
+
+#: Bytes that hold the last row of a history.csv.
+TAIL = 8192
 
 
 def unit_of(column: str) -> str:
@@ -60,6 +64,17 @@ def read_history(path: Path, columns: Iterable[str] = ("time_us",)) -> dict[str,
     if not (np.diff(history["time_us"]) >= 0).all():  # also catches nan
         raise RunDirectoryError(path, "time_us does not increase from row to row", RERUN)
     return history
+
+
+def time_reached(path: Path) -> float:
+    """Time (µs) of the last complete row of a history.csv, from its end alone; 0 before the first, and without a file."""
+    try:
+        with open(path, "rb") as file:
+            file.seek(max(0, file.seek(0, os.SEEK_END) - TAIL))
+            rows = file.read().decode("ascii", "replace").split("\n")[:-1]
+        return float(rows[-1].split(",")[0])
+    except (OSError, ValueError, IndexError):
+        return 0.0
 
 
 def interpolated(times: Array, values: Array, at: float | Array) -> Any:

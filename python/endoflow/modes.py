@@ -11,7 +11,7 @@ import numpy as np
 from .arrays import Array
 from .errors import RunDirectoryError
 from .hdf5 import h5py
-from .noise import Noise, rows_of
+from .noise import Axisymmetric, Noise, index_of_end, rows_of
 
 REMEDY = "repeat `endoflow modes`"
 
@@ -32,14 +32,9 @@ class ModeShapes:
 
 
 @dataclass(frozen=True)
-class Meridian:
-    """The axisymmetric membrane at `time` (µs): arrays (n,) from the axis to the rim, nm; the normal points into the cell."""
+class Meridian(Axisymmetric):
+    """The membrane with its modes; c: concentration (n,)."""
 
-    time: float
-    r: Array
-    z: Array
-    normal_r: Array
-    normal_z: Array
     c: Array
     modes: dict[int, ModeShapes]
 
@@ -73,7 +68,7 @@ class Modes:
     @property
     def last_index(self) -> int:
         """Index of the time of budding, of the last time without one."""
-        return len(self.times) - 1 if self.budding is None else int(np.argmin(np.abs(self.times - self.budding)))
+        return index_of_end(self.times, self.budding)
 
 
 def load_modes(directory: Union[str, Path]) -> Modes:
@@ -118,5 +113,4 @@ def _meridian(group: h5py.Group) -> Meridian:
         if name.startswith("mode_"):
             arrays = (mode[key][:] for key in ("w", "c", "worst", "worst_at_start"))
             modes[int(name.removeprefix("mode_"))] = ModeShapes(float(mode.attrs["growth_per_us"]), *arrays)
-    base = {key: group[key][:] for key in ("r", "z", "normal_r", "normal_z", "c")}
-    return Meridian(time=float(group.attrs["time"]), **base, modes=modes)
+    return Meridian(**Axisymmetric.read(group), c=group["c"][:], modes=modes)

@@ -6,6 +6,7 @@ import csv
 import json
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -14,18 +15,30 @@ from .hdf5 import h5py
 
 
 @dataclass(frozen=True)
-class NoisyMeridian:
-    """The axisymmetric membrane at `time` (µs): arrays (n,) from the axis to the rim, nm; the normal points into the cell.
-
-    rms: {m: (n,) standard deviation of the displacement along the normal by mode m, nm}; inherited: the part that
-    fluctuations of the start have left. Variances of the modes add up.
-    """
+class Axisymmetric:
+    """The axisymmetric membrane at `time` (µs): arrays (n,) from the axis to the rim, nm; the normal points into the cell."""
 
     time: float
     r: Array
     z: Array
     normal_r: Array
     normal_z: Array
+
+    @staticmethod
+    def read(group: h5py.Group) -> dict[str, Any]:
+        """The members as a group of eigenshapes.h5 or noise.h5 has them."""
+        arrays = {key: group[key][:] for key in ("r", "z", "normal_r", "normal_z")}
+        return {"time": float(group.attrs["time"]), **arrays}
+
+
+@dataclass(frozen=True)
+class NoisyMeridian(Axisymmetric):
+    """The membrane with its noise.
+
+    rms: {m: (n,) standard deviation of the displacement along the normal by mode m, nm}; inherited: the part that
+    fluctuations of the start have left. Variances of the modes add up.
+    """
+
     rms: dict[int, Array]
     inherited: dict[int, Array]
 
@@ -51,6 +64,11 @@ class Noise:
     budding: float | None
     budding_spread: float | None
     linear_until: float | None
+
+    @property
+    def last_index(self) -> int:
+        """Index of the time of budding, of the last time without one."""
+        return index_of_end(self.times, self.budding)
 
     @classmethod
     def read(cls, directory: Path) -> Noise | None:
@@ -79,6 +97,11 @@ class Noise:
         )
 
 
+def index_of_end(times: Array, budding: float | None) -> int:
+    """Index of the time nearest to budding; of the last one without."""
+    return len(times) - 1 if budding is None else int(np.argmin(np.abs(times - budding)))
+
+
 def rows_of(path: Path) -> list[dict[str, str]]:
     """The rows of a CSV file (path) with a header."""
     with path.open(encoding="utf-8", newline="") as file:
@@ -89,5 +112,4 @@ def _meridian(group: h5py.Group) -> NoisyMeridian:
     def of(kind: str) -> dict[int, Array]:
         return {int(name.split("_")[1]): group[name][:] for name in sorted(group) if name.startswith(kind)}
 
-    base = {key: group[key][:] for key in ("r", "z", "normal_r", "normal_z")}
-    return NoisyMeridian(time=float(group.attrs["time"]), **base, rms=of("rms_"), inherited=of("inherited_"))
+    return NoisyMeridian(**Axisymmetric.read(group), rms=of("rms_"), inherited=of("inherited_"))

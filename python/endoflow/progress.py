@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import importlib
 import json
-import os
 import sys
 from pathlib import Path
 from typing import Any
+
+from .history import time_reached
 
 #: Letters of the bar in a terminal.
 WIDTH = 40
@@ -58,9 +59,6 @@ def _reached(directory: Path) -> tuple[float, float]:
     """(time of the last complete row of history.csv, time.end) in µs; zeros while there is none."""
     try:
         end = float(json.loads((directory / "run.json").read_text(encoding="utf-8"))["parameters"]["time"]["end"])
-        with open(directory / "history.csv", "rb") as file:
-            file.seek(max(0, file.seek(0, os.SEEK_END) - 8192))
-            rows = file.read().decode("ascii", "replace").split("\n")[:-1]
-        return float(rows[-1].split(",")[0]), end
-    except (OSError, ValueError, IndexError, KeyError):
+    except (OSError, ValueError, KeyError):
         return 0.0, 0.0
+    return time_reached(directory / "history.csv"), end

@@ -34,6 +34,11 @@ std::string Alarm::describe() const {
     return fmt::format("{} at t = {:.4g} µs: {}; {}", name, time_us, beyond(meaning, value, bound), remedy);
 }
 
+Alarm alarm_of(const RunRecord& entry) {
+    return {entry.at("name"),  entry.at("time_us"), entry.at("value"),
+            entry.at("bound"), entry.at("meaning"), entry.at("remedy")};
+}
+
 AccuracyWatch::AccuracyWatch(const Parameters& parameters, const EngineIdentity& engine)
     : columns_(engine.history_columns), rest_(rest_level(parameters)) {
     for (const AccuracyBound& bound : accuracy_bounds())

@@ -58,6 +58,9 @@ struct Alarm {
     [[nodiscard]] std::string describe() const;
 };
 
+/// From an entry of run.json's `alarms`. Throws RunRecord::exception when one of its members is not there.
+[[nodiscard]] Alarm alarm_of(const RunRecord& entry);
+
 /// Follows the quantities of one run. What it must remember stands in the run's record (`accuracy`: for each quantity
 /// its largest value, when that was, bound and limit; `alarms`), so a restart goes on from there.
 class AccuracyWatch {

@@ -176,6 +176,7 @@ struct RunFiles::Implementation {
     void save_record() {
         record["wall_s"] = wall();
         record["cpu_s"] = cpu_before + cpu_seconds();
+        record["resolution"] = resolution_in_words(record);
         if (sudden_end) sudden_end->renew(record);
         const std::lock_guard<std::mutex> guard(saving);
         write_file_atomically(directory.record(), record.dump(2) + "\n");

@@ -64,6 +64,7 @@ void RunMemory::end(const std::string& state, const std::string& reason) {
     record_["ended"] = utc_now();
     record_["wall_s"] = wall_seconds() - wall_start_;
     record_["cpu_s"] = cpu_seconds();
+    record_["resolution"] = resolution_in_words(record_);
 }
 
 }  // namespace endoflow

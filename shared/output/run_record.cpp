@@ -92,6 +92,7 @@ RunRecord new_record(const Parameters& parameters, const EngineIdentity& engine)
     for (const ColumnText& column : all_columns(engine.history_columns))
         record["columns"][column.name] = column.meaning;
     record["events"] = RunRecord::object();
+    record["resolution"] = "";
     record["accuracy"] = RunRecord::object();
     record["alarms"] = RunRecord::array();
     record["notes"] = RunRecord::object();
@@ -173,6 +174,28 @@ void add_phase_time(RunRecord& record, const std::string& phase, double wall_s, 
     if (totals.is_null()) totals = {{"wall_s", 0.0}, {"cpu_s", 0.0}};
     totals["wall_s"] = totals["wall_s"].get<double>() + wall_s;
     totals["cpu_s"] = totals["cpu_s"].get<double>() + cpu_s;
+}
+
+std::string resolution_in_words(const RunRecord& record) {
+    const RunRecord &parameters = record.at("parameters"), &notes = record.at("notes");
+    if (record.at("engine") == "phase-field") {
+        const RunRecord& own = parameters.at("phase_field");
+        const double cells = notes.value("cell_size_nm", own.at("cell_size").get<double>());
+        return fmt::format("layer of ε = {:g} nm", own.at("epsilon").get<double>()) +
+               (cells > 0 ? fmt::format(" on cells of {:.4g} nm", cells) : "");
+    }
+    const RunRecord& own = parameters.at("boundary_integral");
+    const long elements = notes.value("elements", own.at("elements").get<long>());
+    std::string text = elements > 0 ? fmt::format("{} elements", elements) : "elements as the accuracy asks";
+    if (record.at("engine") == "statics") return text;
+    const RunRecord counts = notes.value("elements_from", RunRecord::array()), &accuracy = record.at("accuracy");
+    if (counts.size() > 1) text += fmt::format(" at the end, {} at the start", counts.at(0).at("elements").get<long>());
+    const double tolerance = notes.value("time_tolerance", parameters.at("time").at("tolerance").get<double>());
+    if (tolerance > 0) text += fmt::format(", time tolerance {:g}", tolerance);
+    if (accuracy.contains("resolution"))
+        text += fmt::format("; relative accuracy {:g} asked for, {:.1e} reached", own.at("accuracy").get<double>(),
+                            accuracy.at("resolution").at("largest").get<double>());
+    return text;
 }
 
 std::string state_after(ExitReason reason) {

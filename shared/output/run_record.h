@@ -68,6 +68,10 @@ void add_rejected_step(RunRecord& record);
 /// Adds to the phase's totals, s.
 void add_phase_time(RunRecord& record, const std::string& phase, double wall_s, double cpu_s);
 
+/// What was resolved, in words, from parameters, notes and accuracy: elements or layer, tolerance, accuracy reached.
+/// run.json has it as `resolution`, which pages repeat.
+[[nodiscard]] std::string resolution_in_words(const RunRecord& record);
+
 /// The state of a run that ended without an error.
 [[nodiscard]] std::string state_after(ExitReason reason);
 

@@ -6,9 +6,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "boundary_integral/evolution/membrane_dynamics.h"
+#include "boundary_integral/evolution/observation.h"
 #include "boundary_integral/modes/base_trajectory.h"
-#include "boundary_integral/modes/engine_state.h"
 #include "boundary_integral/modes/perturbations.h"
 #include "curves.h"
 #include "modes_states.h"
@@ -34,7 +33,11 @@ Eigen::VectorXd perturbed(const MembraneDynamics& dynamics, const MembraneState&
         [&](double x) { return space.axial().basis(x).evaluate(state.c) + amount * by.c(x); });
     moved.r[space.radial_count() - 1] = state.r[space.radial_count() - 1];
     moved.z.tail(2) = state.z.tail(2);
-    return state_vector(dynamics, moved);
+    return dynamics.packed(moved);
+}
+
+Eigen::VectorXd concentration_rate(const MembraneDynamics& dynamics, const Evaluation& e) {
+    return concentration_from_moments(dynamics.space(), e.samples.curve, moments_of_concentration_rate(dynamics, e));
 }
 
 }  // namespace
@@ -84,9 +87,9 @@ TEST_CASE("mode 0 of the linearisation is the derivative of the axisymmetric eng
     const MembraneDynamics dynamics(parameters);
     const MembraneSpace& space = dynamics.space();
     const MembraneState state = bulge(space, 25);
-    const Evaluation e = dynamics.evaluate(state_vector(dynamics, state));
+    const Evaluation e = dynamics.evaluate(dynamics.packed(state));
     const Surroundings surroundings(parameters, space, 0);
-    const LinearisedMembrane membrane(parameters, surroundings, engine_state(dynamics, e));
+    const LinearisedMembrane membrane(parameters, surroundings, base_state(dynamics, e));
 
     const AxisymmetricPerturbation by = {[](double x) { return std::pow(1 - x * x, 3) * std::cos(4 * x * x); },
                                          [](double x) { return 0.3 * std::exp(-6 * x * x); }};
@@ -158,7 +161,7 @@ TEST_CASE("the propagator of mode 0 is the difference of two nearby runs", "[mod
     const ModeSpace& mode = surroundings.space(0);
     const auto rates = [&](double time) {
         const Evaluation e = dynamics.evaluate(base.state(time));
-        const LinearisedMembrane membrane(parameters, surroundings, engine_state(dynamics, e));
+        const LinearisedMembrane membrane(parameters, surroundings, base_state(dynamics, e));
         return std::vector<LinearRate>{mesh_rate(membrane, mode, membrane.rates(0), e.relative_velocity, 1.0)};
     };
     Eigen::MatrixXd y(mode.displacement_count() + mode.scalar().dimension(), 1);
@@ -218,9 +221,9 @@ RigidErrors rigid_errors(Motion motion, double inner, double outer, Index elemen
         space, [](double x) { return 18 * std::sin(pi * x) * (1 + 0.05 * std::cos(2 * pi * x)); },
         [](double x) { return 24 * std::cos(pi * x) + std::cos(2 * pi * x); },
         [](double x) { return 0.4 + 0.3 * std::cos(pi * x); });
-    const Evaluation e = dynamics.evaluate(state_vector(dynamics, state));
+    const Evaluation e = dynamics.evaluate(dynamics.packed(state));
     const Surroundings surroundings(parameters, space, 1);
-    const LinearisedMembrane membrane(parameters, surroundings, engine_state(dynamics, e));
+    const LinearisedMembrane membrane(parameters, surroundings, base_state(dynamics, e));
     const ModeSpace& mode = surroundings.space(1);
 
     // The same quantities of the shape and of the shape a moment later, both in coordinates along the normal.
@@ -279,7 +282,7 @@ SlowestRates of_resting_vesicle(Index elements) {
     const Evaluation e = dynamics.evaluate(relaxation.state(at_rest_from));
     REQUIRE(e.flow.velocity.cwiseAbs().maxCoeff() < 1e-9);
     const Surroundings surroundings(parameters, dynamics.space(), 1);
-    const LinearisedMembrane membrane(parameters, surroundings, engine_state(dynamics, e));
+    const LinearisedMembrane membrane(parameters, surroundings, base_state(dynamics, e));
     const ModeRates rates = membrane.rates(1);
     const Eigen::MatrixXd block = rates.material.topLeftCorner(rates.displacements, rates.displacements);
     const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(block, false).eigenvalues();

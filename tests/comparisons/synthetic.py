@@ -190,6 +190,7 @@ def write_run(directory, engine, membrane_at, shape_times, points=400, case=None
         "format_version": 1,
         "engine": engine,
         "state": "finished",
+        "resolution": "32 elements, time tolerance 1e-04",
         "exit_reason": "done",
         "time_us": end,
         "parameters": case or parameters(),

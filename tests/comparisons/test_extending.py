@@ -1,4 +1,4 @@
-"""The recipes of docs/extending.md for comparisons/, carried out on a copy: a quantity, a command, a study touch one file and one row."""
+"""The recipes of docs/extending.md for comparisons/, carried out on a copy: a quantity and a study touch one file and one row."""
 
 import json
 import shutil
@@ -10,12 +10,6 @@ import locations
 import synthetic
 from scratch import scratch_directory
 from studies import StudyTest
-
-COMMAND = '''
-def run(options):
-    print(f"called with {options.word}")
-    return 0
-'''
 
 STUDY = '''
 from pathlib import Path
@@ -69,7 +63,7 @@ class Extending(StudyTest):
         return process.stdout
 
     def test_a_quantity(self):
-        row = '    Quantity("molecule_mass_nm2", "Molecules", "nm²", "all on the membrane", "compared drawn", "molecules_nm2"),\n'
+        row = '    Quantity("molecule_mass_nm2", "Molecules", "nm²", "all on the membrane", "compared drawn swept"),\n'
         self.insert("measures/quantities.py", '    Quantity(\n        "area_strain_max"', row)
         a, b = synthetic.write_pair(self.scratch, count=3)
         self.call("compare", a, b, "-o", "c")
@@ -78,15 +72,8 @@ class Extending(StudyTest):
         self.assertIn("Molecules (nm²)", (self.scratch / "c" / "report.html").read_text(encoding="utf-8"))
         self.call("sweep", "case.toml", "--vary", "molecules.patch_radius=20,40", "--engine", "boundary-integral", "-o", "s")
         head, *rows = (self.scratch / "s" / "sweep.csv").read_text(encoding="utf-8").splitlines()
-        place = head.split(",").index("molecules_nm2")
+        place = head.split(",").index("molecule_mass_nm2")
         self.assertTrue(all(float(line.split(",")[place]) > 0 for line in rows))
-
-    def test_a_command(self):
-        (self.copy / "comparisons" / "commands" / "hello.py").write_text(COMMAND, encoding="utf-8")
-        row = '    "hello": Command("Say a word.", lambda parser: parser.add_argument("word"), "hello.run"),\n'
-        self.insert("commands/options.py", '    "certify": Command(', row)
-        self.assertEqual(self.call("hello", "it"), "called with it\n")
-        self.assertEqual(json.loads(self.call("hello", "--describe"))["description"], "Say a word.")
 
     def test_a_study(self):
         (self.copy / "comparisons" / "commands" / "twice.py").write_text(STUDY, encoding="utf-8")

@@ -10,7 +10,7 @@ from scratch import scratch_directory
 
 import endoflow
 import synthetic
-from comparisons.measures.words import rounded_up
+from comparisons.measures.words import NOT_RECORDED, basis, rounded_up
 from comparisons.measures.distances import InterpolationError
 from comparisons.measures.metrics import (
     NoCommonTimeError,
@@ -30,6 +30,12 @@ class ParallelRuns(unittest.TestCase):
     def setUpClass(cls):
         a, b = synthetic.write_pair(scratch_directory(cls), OFFSET)
         cls.metrics = compare_runs(endoflow.load(a), endoflow.load(b), LABELS)
+
+    def test_what_the_numbers_rest_on(self):
+        resolution = "32 elements, time tolerance 1·10⁻⁴"
+        for run in self.metrics["runs"].values():
+            self.assertEqual((run["basis"]["curvature convention"], run["basis"]["resolution"]), ("as-printed", resolution))
+        self.assertEqual(basis({"parameters": {"membrane": {}}})["resolution"], NOT_RECORDED)
 
     def test_distances_equal_the_offset_at_every_time(self):
         self.assertEqual(len(self.metrics["times"]), 21)

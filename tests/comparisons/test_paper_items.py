@@ -8,8 +8,9 @@ import numpy as np
 import endoflow
 from comparisons.paper.wanted_runs import LONGEST_NAME, short_enough
 from comparisons.paper import attribution, fig5, mobility, printed, table2, timescale
-from comparisons.paper.item import PHASE_FIELD, NotRun, filled, state_of, value_at
-from comparisons.studies.members import flat_parameters
+from comparisons import PHASE_FIELD  # noqa: E402
+from comparisons.paper.item import NotRun, filled, state_of, value_at
+from comparisons.measures.metrics import flattened
 
 
 def run_with(area, time=(0.0, 0.5)):
@@ -123,7 +124,7 @@ class Attribution(unittest.TestCase):
         self.assertEqual(runs["printed"].settings, {})
         sizes = [len(runs[rung.name].settings) for rung in attribution.RUNGS]
         self.assertEqual(sizes, sorted(set(sizes)), "each has all of those before it")
-        own = flat_parameters({"phase_field": {"paper": {"step_rule": "guarded"}}})
+        own = flattened({"phase_field": {"paper": {"step_rule": "guarded"}}})
         self.assertLessEqual(own.items(), runs[attribution.RUNGS[-1].name].settings.items())
 
 

@@ -11,7 +11,8 @@ import locations
 import synthetic
 from browser import Browser, chromium
 from command import compare
-from comparisons.page.html import code, count_or_figures, figures, flattened, percent, prose, setting
+from comparisons.measures.metrics import flattened
+from comparisons.page.html import code, count_or_figures, figures, percent, prose, setting
 from scratch import scratch_directory
 
 READY = "document.documentElement?.dataset.ready === 'true'"

@@ -42,7 +42,7 @@ class Resuming(SweepTest):
         # Budding of the family is at 0.7346 µs, after the earlier end; history.csv has a row at 0.5 µs.
         self.assertEqual((whole["budding_time_us"][:5], row["budding_time_us"]), ("0.734", ""))
         height = synthetic.budding_membrane(0.5, 1.0).bud_height
-        self.assertAlmostEqual(float(row["height_nm"]), height, delta=1e-6)
+        self.assertAlmostEqual(float(row["bud_height_nm"]), height, delta=1e-6)
 
     def test_alarms_have_a_column(self):
         patch = ("--vary", "molecules.patch_radius=20,30", *BOUNDARY_INTEGRAL, "-o", "s")

@@ -21,13 +21,13 @@ class Sweep(SweepTest):
         self.assertEqual(rows[1]["directory"], "out/case/sweep/patch_radius=40/boundary-integral")
         self.assertAlmostEqual(float(rows[0]["budding_time_us"]), 0.7346, places=3)
         self.assertAlmostEqual(float(rows[0]["neck_radius_nm"]), 0.78, places=1)
-        for column in ("lateral_diameter_nm", "height_nm", "area_nm2", "energy_pN_nm", "wall_s"):
+        for column in ("bud_diameter_nm", "bud_height_nm", "membrane_area_nm2", "bending_energy_pN_nm", "wall_s"):
             self.assertGreater(float(rows[0][column]), 0)
         self.assertEqual((self.scratch / "out/case/sweep/sweep.png").read_bytes()[:4], b"\x89PNG")
         page = (self.scratch / "out/case/sweep/report.html").read_text()
         self.assertIn("molecules.patch_radius", page)
         self.assertEqual(unnamed_basis(page), [])
-        for head in ("<code>molecules.patch_radius</code>", "budding time (µs)", "area (nm²)"):
+        for head in ("<code>molecules.patch_radius</code>", "budding time (µs)", "membrane area (nm²)"):
             self.assertIn(f'<th scope="col">{head}</th>', page)
         self.assertIn("3 of 3 done", process.stdout)
 

@@ -145,6 +145,23 @@ TEST_CASE("events after the point from which a run goes on are forgotten") {
     CHECK_FALSE(record["events"].contains("neck_closed"));
 }
 
+TEST_CASE("a record says in words what was resolved") {
+    RunRecord sharp = new_record(Parameters{}, test_engine());
+    CHECK(resolution_in_words(sharp) == "elements as the accuracy asks");
+    sharp["notes"] = {
+        {"elements", 72}, {"time_tolerance", 1e-4}, {"elements_from", {{{"elements", 54}}, {{"elements", 72}}}}};
+    sharp["accuracy"]["resolution"] = {{"largest", 2e-4}};
+    CHECK(resolution_in_words(sharp) ==
+          "72 elements at the end, 54 at the start, time tolerance 0.0001; relative accuracy 0.001 asked for, 2.0e-04 "
+          "reached");
+    sharp["engine"] = "statics";
+    CHECK(resolution_in_words(sharp) == "72 elements");
+    sharp["engine"] = "phase-field";
+    CHECK(resolution_in_words(sharp) == "layer of ε = 1.2 nm");
+    sharp["notes"]["cell_size_nm"] = 0.625;
+    CHECK(resolution_in_words(sharp) == "layer of ε = 1.2 nm on cells of 0.625 nm");
+}
+
 TEST_CASE("a run's directory: record, events, restart, and an earlier run that is kept") {
     const TemporaryDirectory directory;
     Parameters parameters;
