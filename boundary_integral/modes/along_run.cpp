@@ -71,7 +71,7 @@ void AlongRun::for_modes(const std::function<void(int mode, std::size_t index)>&
 }
 
 Moment AlongRun::moment(double time) const {
-    Moment result{time, dynamics_.evaluate(trajectory_.state(time)), nullptr, {}};
+    Moment result{time, dynamics_.evaluate(time, trajectory_.state(time)), nullptr, {}};
     result.membrane =
         std::make_unique<LinearisedMembrane>(parameters_, surroundings_, engine_state(dynamics_, result.evaluation));
     result.rates.resize(static_cast<std::size_t>(last_mode() - first_mode_) + 1);
