@@ -186,7 +186,7 @@ const std::vector<Command>& commands() {
         {"revolve", script, {{"DIR [--angle DEGREES]", "a run's membrane as surfaces in space, for ParaView"}}},
         {"modes",
          modes,
-         {{"DIR [--modes 1:8] [--times N]", "a sharp run's azimuthal modes: does the bud stay round?"}}},
+         {{"DIR [--modes 1:8] [--noise]", "a sharp run's azimuthal modes: does the bud stay round? Thermal noise"}}},
         {"statics",
          statics,
          {{"CASE.toml [-o DIR] [--continue-in KEY=END]", "stationary shapes of the sharp membrane"}}},

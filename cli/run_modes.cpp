@@ -43,10 +43,16 @@ int run(int argc, char** argv) {
     app.add_option("--times", request.times, "at this many evenly spread times, and at budding [20]")->type_name("N");
     app.add_option("--tolerance", request.tolerance, "relative error of a perturbation in one step [0.01]")
         ->type_name("X");
+    bool noise = false;
+    double temperature = 310.0;
+    CLI::Option* const with_noise =
+        app.add_flag("--noise", noise, "thermal noise about the run as well, of modes 0 to LAST");
+    app.add_option("--temperature", temperature, "of the noise, in kelvin [310]")->type_name("K")->needs(with_noise);
     bool tables_only = false;
     app.add_flag("--tables-only", tables_only, "no plots, no page, no surfaces");
     if (!parse(app, argc, argv)) return 0;
     read_range(modes, request.first_mode, request.last_mode);
+    if (noise) request.temperature = temperature;
     if (request.directory.empty()) request.directory = request.run / "modes";
     require_one_process("endoflow modes", "");
     openblas_set_num_threads(1);  // the layers' own threads share the work

@@ -20,7 +20,7 @@ int run(int argc, char** argv) {
         "endoflow statics");
     std::filesystem::path case_file, directory;
     std::vector<std::string> overrides;
-    std::string continuation, family;
+    std::string continuation, family, hold;
     statics::Request request;
     app.add_option("CASE", case_file, case_help)->required()->type_name("");
     app.add_option("-o,--output", directory, "directory of the result [out/CASE/statics]")->type_name("DIR");
@@ -29,6 +29,11 @@ int run(int argc, char** argv) {
         ->allow_extra_args(false);
     app.add_option("--continue-in", continuation, "all stationary shapes from the case's value to END")
         ->type_name("section.key=END");
+    app.add_option(
+           "--hold", hold,
+           "shapes whose neck is held at radii from R1 to R2 (nm), the force that holds it, the work; R1 may be "
+           "`open`: the widest neck there is")
+        ->type_name("neck_radius=R1:R2");
     app.add_flag("--disc-mass", request.disc_mass,
                  "the molecules' mass is π patch_radius², not that of the initial profile, which is a little larger");
     app.add_option("--elements", request.resolution.elements,
@@ -42,8 +47,9 @@ int run(int argc, char** argv) {
     if (!family.empty()) request.family = statics::parse_family(family);
     case_file = find_case(case_file);
     const Parameters parameters = read_case(case_file, overrides);
-    statics::require_stationary_model(parameters, request);
+    if (!hold.empty()) request.hold = statics::parse_hold(hold, parameters);
     if (!continuation.empty()) request.continuation = statics::parse_continuation(continuation, parameters);
+    statics::require_stationary_model(parameters, request);
     if (directory.empty()) directory = std::filesystem::path("out") / case_file.stem() / "statics";
 
     install_signal_handlers();

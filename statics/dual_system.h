@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 
 #include "shared/numerics/forward.h"
 #include "statics/boundary_value_problem.h"
@@ -28,7 +29,7 @@ std::array<Dual<N>, N> dual_unknowns(const Eigen::VectorXd& states, const Eigen:
 
 /// slopes[i] = dy_i/dx for the states.
 template <std::size_t N>
-SlopeValues slope_values(const std::array<Dual<N>, N>& slopes, Eigen::Index states, Eigen::Index globals) {
+SlopeValues slope_values(std::span<const Dual<N>> slopes, Eigen::Index states, Eigen::Index globals) {
     SlopeValues result{Eigen::VectorXd(states), Eigen::MatrixXd(states, states), Eigen::MatrixXd(states, globals)};
     for (Eigen::Index i = 0; i < states; ++i) {
         const Dual<N>& slope = slopes[static_cast<std::size_t>(i)];

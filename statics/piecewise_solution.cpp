@@ -68,6 +68,11 @@ Eigen::VectorXd evaluate(const PiecewiseSolution& solution, const GaussRule& rul
     return solution.nodes.col(static_cast<Eigen::Index>(i)) + h * (solution.slopes[i] * rule.integrals(xi));
 }
 
+Eigen::VectorXd slope_at(const PiecewiseSolution& solution, const GaussRule& rule, double x) {
+    const std::size_t i = solution.element_of(x);
+    return solution.slopes[i] * rule.values((x - solution.mesh[i]) / solution.width(i));
+}
+
 PiecewiseSolution sample(const std::vector<double>& mesh, const GaussRule& rule,
                          const std::function<Eigen::VectorXd(double)>& y,
                          const std::function<Eigen::VectorXd(double)>& slope, const Eigen::VectorXd& globals,
@@ -87,10 +92,7 @@ PiecewiseSolution sample(const std::vector<double>& mesh, const GaussRule& rule,
 PiecewiseSolution resample(const PiecewiseSolution& solution, const GaussRule& rule, const std::vector<double>& mesh,
                            const GaussRule& new_rule) {
     const auto value = [&](double x) { return evaluate(solution, rule, x); };
-    const auto slope = [&](double x) -> Eigen::VectorXd {
-        const std::size_t i = solution.element_of(x);
-        return solution.slopes[i] * rule.values((x - solution.mesh[i]) / solution.width(i));
-    };
+    const auto slope = [&](double x) { return slope_at(solution, rule, x); };
     return sample(mesh, new_rule, value, slope, solution.globals, solution.parameter);
 }
 

@@ -30,6 +30,9 @@ struct PiecewiseSolution {
 /// y(x), (n), error O(h^(k+1)); at the mesh points the superconvergent values.
 [[nodiscard]] Eigen::VectorXd evaluate(const PiecewiseSolution& solution, const GaussRule& rule, double x);
 
+/// dy/dx at x, of the element that element_of() gives.
+[[nodiscard]] Eigen::VectorXd slope_at(const PiecewiseSolution& solution, const GaussRule& rule, double x);
+
 /// The same functions on another mesh.
 [[nodiscard]] PiecewiseSolution interpolate(const PiecewiseSolution& solution, const GaussRule& rule,
                                             const std::vector<double>& mesh);

@@ -12,9 +12,8 @@
 #include "shared/support/error.h"
 #include "shared/support/interruption.h"
 #include "shared/support/nearest_word.h"
-#include "statics/sampled_curve.h"
-#include "statics/shape_integrals.h"
-#include "statics/state_writer.h"
+#include "statics/held_simulation.h"
+#include "statics/shape_record.h"
 #include "statics/stationary_state.h"
 #include "statics/vesicle_case.h"
 #include "statics/vesicle_simulation.h"
@@ -38,73 +37,18 @@ std::vector<std::string> continuable(const Parameters& parameters) {
     return keys;
 }
 
+/// The whole text as a number; empty when it is none.
+std::optional<double> number(const std::string& text) {
+    char* rest = nullptr;
+    const double value = std::strtod(text.c_str(), &rest);
+    if (text.empty() || *rest != '\0') return std::nullopt;
+    return value;
+}
+
 /// Along a branch in a load the membrane may become a tube of any length: it is followed to the top or bottom of the
 /// box.
 bool is_load(const std::string& key) {
     return key == "membrane.rim_tension" || key == "membrane.pole_force" || key == "fluid.pressure_difference";
-}
-
-/// The case as it is solved: patch_radius is that of the initial profile.
-Parameters resolved(const Parameters& parameters, const Request& request) {
-    return request.disc_mass ? with_disc_mass(parameters) : parameters;
-}
-
-/// What one stationary shape says of itself.
-struct ShapeRecord {
-    const Parameters& named;  // the case the user sees
-    const MembraneCurve& curve;
-    const BranchPoint& point;
-    const ShapeIntegrals& integrals;
-    Loads loads;
-    std::optional<double> followed;  // value of the parameter of a branch
-
-    [[nodiscard]] double apex_height() const { return curve.z.front() - curve.z.back(); }
-};
-
-const std::vector<OwnColumn<ShapeRecord>>& own_shape_columns() {
-    using R = ShapeRecord;
-    static const std::vector<OwnColumn<R>> columns{
-        {"patch_radius_nm", "molecules.patch_radius of the case",
-         [](const R& r) { return r.named.molecules.patch_radius; }},
-        {"spontaneous_curvature_per_nm", "membrane.spontaneous_curvature of the case",
-         [](const R& r) { return r.named.membrane.spontaneous_curvature; }},
-        {"curve_length_nm", "arc length from the axis to the rim", [](const R& r) { return r.curve.s.back(); }},
-        {"apex_height_nm", "height of the membrane on the axis above the rim",
-         [](const R& r) { return r.apex_height(); }},
-        {"tension_at_axis_pN_per_nm", "λ on the axis", [](const R& r) { return r.curve.lambda.front(); }},
-        {"branch_length", "arc length along the branch, in units of the problem's scales",
-         [](const R& r) { return r.point.arc_length; }},
-        {"folds_passed", "folds of the branch before this shape",
-         [](const R& r) { return static_cast<double>(r.point.folds_before); }},
-        {"rim_tension_pN_per_nm", "σ", [](const R& r) { return r.loads.rim_tension; }},
-        {"pressure_difference_pN_per_nm2", "p", [](const R& r) { return r.loads.pressure; }},
-        {"pole_force_pN", "F", [](const R& r) { return r.loads.pole_force; }},
-        {"pole_extension_nm", "z̄ − z(rim): how far the pole force has pulled",
-         [](const R& r) { return r.integrals.extension; }},
-        {"potential_pN_nm", "𝒢 = E + E_c + σ A − p V − F z̄", [](const R& r) { return r.integrals.potential(r.loads); }},
-        {"line_energy_pN_nm", "E_c of the coat's edge, under energetic coupling",
-         [](const R& r) { return r.integrals.edge; }},
-        {followed_value.name, followed_value.meaning, [](const R& r) { return r.followed; }},
-    };
-    return columns;
-}
-
-/// `named` is the case the user sees, `solved` the one that was computed; `followed`: the value on a branch.
-Json write_state(StateWriter& writer, const Parameters& named, const Parameters& solved, const BranchPoint& point,
-                 std::optional<double> followed) {
-    const GaussRule rule(Resolution{}.points);
-    const MembraneCurve curve = sampled_curve(solved, point.solution, rule, curve_points);
-    const ShapeIntegrals integrals = shape_integrals(solved, point.solution, rule);
-    const Loads loads = loads_of(solved);
-    const ShapeRecord record{named, curve, point, integrals, loads, followed};
-    Json figures = writer.write(curve, bending_model(solved, 0), own_values(own_shape_columns(), record));
-    figures["apex_height_nm"] = record.apex_height();
-    figures["tension_at_axis_pN_per_nm"] = curve.lambda.front();
-    const bool coupled = energetically_coupled(solved.molecules);
-    if (coupled) figures["line_energy_pN_nm"] = integrals.edge;
-    if (coupled || !loads.none()) figures["potential_pN_nm"] = integrals.potential(loads);
-    if (loads.pole_force != 0) figures["pole_extension_nm"] = integrals.extension;
-    return figures;
 }
 
 std::string side_reached(const Parameters& parameters, const PiecewiseSolution& solution) {
@@ -135,7 +79,7 @@ ExitReason write_branch(const Parameters& parameters, const Request& request, co
     bool left_the_box = false;
     const auto visit = [&](const BranchPoint& point) {
         const double value = point.solution.parameter;
-        write_state(writer, named(value), solved(value).parameters, point, value);
+        write_state(writer, named(value), solved(value).parameters, point, {value, {}});
         left_the_box = is_load(key) && reaches_top_or_bottom(parameters, point.solution);
         return interruption_signal() == 0 && !left_the_box;
     };
@@ -145,7 +89,7 @@ ExitReason write_branch(const Parameters& parameters, const Request& request, co
                           "choose another parameter or start from another case");
     if (interruption_signal() != 0) return ExitReason::interrupted;
     const bool neck_closed = !left_the_box && neck_closes(*branch);
-    describe_branch(writer, key, number_of(parameters, key), *branch,
+    describe_branch(writer, key, row.unit, number_of(parameters, key), *branch,
                     left_the_box  ? side_reached(parameters, branch->last.solution)
                     : neck_closed ? "the neck closes"
                                   : to_string(branch->end));
@@ -166,15 +110,34 @@ Request::Continuation parse_continuation(const std::string& text, const Paramete
                                      nearest ? fmt::format("did you mean '{}'? ", *nearest) : "",
                                      fmt::join(keys, ", ")));
     }
-    char* rest = nullptr;
-    const double end = std::strtod(value.c_str(), &rest);
-    if (value.empty() || *rest != '\0') throw InputError(where + ": END must be a number");
+    const auto end = number(value);
+    if (!end) throw InputError(where + ": END must be a number");
     Parameters checked = parameters;
-    set_parameter(checked, *find_parameter(key), end, where);
+    set_parameter(checked, *find_parameter(key), *end, where);
     check_case(checked, where);
-    if (end == number_of(parameters, key))
+    if (*end == number_of(parameters, key))
         throw InputError(fmt::format("{}: the case already has {} = {}", where, key, value));
-    return {key, end};
+    return {key, *end};
+}
+
+Request::Hold parse_hold(const std::string& text, const Parameters& parameters) {
+    const std::string where = "command line: --hold " + text, prefix = "neck_radius=";
+    const auto colon = text.find(':');
+    if (!text.starts_with(prefix) || colon == std::string::npos)
+        throw InputError(where + ": it must be neck_radius=R1:R2, from one radius to another, nm, R1 may be `open`");
+    const double widest = parameters.domain.radius;
+    const auto radius = [&](const std::string& word) {
+        const auto value = number(word);
+        if (!value || !(*value >= closed_neck_radius && *value < widest))
+            throw InputError(fmt::format("{}: '{}' must be a radius between {:g} nm and domain.radius = {:g} nm", where,
+                                         word, closed_neck_radius, widest));
+        return *value;
+    };
+    const std::string first = text.substr(prefix.size(), colon - prefix.size());
+    Request::Hold hold{{}, radius(text.substr(colon + 1))};
+    if (first != "open") hold.begin = radius(first);
+    if (hold.begin == hold.end) throw InputError(where + ": R1 and R2 must differ");
+    return hold;
 }
 
 VesicleFamily parse_family(const std::string& text) {
@@ -187,7 +150,7 @@ VesicleFamily parse_family(const std::string& text) {
 EngineIdentity identity(const Parameters& parameters) {
     return {"statics",
             {{"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}},
-            is_vesicle(parameters) ? vesicle_columns() : texts_of(own_shape_columns()),
+            is_vesicle(parameters) ? vesicle_columns() : shape_columns(),
             1,
             1,
             RowOrder::along_a_branch};
@@ -199,7 +162,10 @@ void require_stationary_model(const Parameters& parameters, const Request& reque
     if (elements < fewest_elements || elements > most_elements)
         throw InputError(fmt::format("command line: --elements {}: it must be between {} and {}", elements,
                                      fewest_elements, most_elements));
+    if (request.hold && request.continuation)
+        throw InputError("command line: --hold and --continue-in exclude each other");
     if (is_vesicle(parameters)) {
+        if (request.hold) throw InputError("command line: --hold does not go with a vesicle");
         if (request.disc_mass) throw InputError("command line: --disc-mass does not go with a vesicle");
         (void)vesicle_case(parameters);
     } else {
@@ -212,6 +178,7 @@ void require_stationary_model(const Parameters& parameters, const Request& reque
 
 ExitReason simulate(const Parameters& parameters, const Request& request, RunOutput& output) {
     if (is_vesicle(parameters)) return simulate_vesicle(parameters, request, output);
+    if (request.hold) return simulate_hold(parameters, request, output);
     const Parameters solved = resolved(parameters, request);
     Search search;
     {
@@ -234,7 +201,7 @@ ExitReason simulate(const Parameters& parameters, const Request& request, RunOut
                         "exist in between, and this one is stable only if that number is even",
                         state.point.folds_before));
     if (request.continuation) return write_branch(parameters, request, state, writer);
-    const Json figures = write_state(writer, parameters, solved, state.point, std::nullopt);
+    const Json figures = write_state(writer, parameters, solved, state.point, {});
     output.note("stationary_state", figures);
     warn_about_walls(parameters, figures["apex_height_nm"].get<double>(), output);
     print_figures(figures);

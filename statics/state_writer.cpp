@@ -43,9 +43,8 @@ Json describe_folds(const std::vector<Fold>& folds, const std::string& key) {
     return list;
 }
 
-void describe_branch(const StateWriter& writer, const std::string& key, double begin, const Branch& branch,
-                     const std::string& ended_because) {
-    const std::string& unit = find_parameter(key)->unit;
+void describe_branch(const StateWriter& writer, const std::string& key, const std::string& unit, double begin,
+                     const Branch& branch, const std::string& ended_because) {
     const double end = branch.last.solution.parameter;
     writer.output().note("branch", {{"parameter", key},
                                     {"unit", unit},

@@ -41,8 +41,8 @@ void print_figures(const Json& figures);
 /// [{parameter, value}]
 [[nodiscard]] Json describe_folds(const std::vector<Fold>& folds, const std::string& key);
 
-/// Notes and prints where a branch in a parameter begins, ends and folds.
-void describe_branch(const StateWriter& writer, const std::string& key, double begin, const Branch& branch,
-                     const std::string& ended_because);
+/// Notes and prints where a branch in a parameter of this unit begins, ends and folds.
+void describe_branch(const StateWriter& writer, const std::string& key, const std::string& unit, double begin,
+                     const Branch& branch, const std::string& ended_because);
 
 }  // namespace endoflow::statics

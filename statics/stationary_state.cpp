@@ -15,11 +15,6 @@ namespace {
 
 constexpr const char* curvature_key = "membrane.spontaneous_curvature";
 
-double scale_of_curvature(const Parameters& parameters) {
-    const double curvature = std::abs(parameters.membrane.spontaneous_curvature);
-    return curvature > 0 ? curvature : 1 / parameters.domain.radius;
-}
-
 /// The flat membrane on a mesh that resolves the edge of the patch.
 PiecewiseSolution flat_guess(const Parameters& parameters, const GaussRule& rule, const Eigen::VectorXd& scales,
                              std::size_t elements) {
@@ -84,22 +79,18 @@ std::string end_of_branch(const Branch& branch, const std::string& key, const st
                        branch.last.solution.parameter, unit);
 }
 
+BoundaryValueProblem shapes_in_curvature(const Parameters& parameters) {
+    return stationary_shapes(path_in(parameters, curvature_key), parameters.membrane.spontaneous_curvature,
+                             scale_of_curvature(parameters));
+}
+
 /// The branch from the flat membrane, as long as `go_on` says so, and the state where it reaches the case.
 Search search_along(const Parameters& parameters, const Resolution& resolution, const Visitor& go_on) {
-    const double target = parameters.membrane.spontaneous_curvature;
-    const GaussRule rule(resolution.points);
-    const BoundaryValueProblem problem =
-        stationary_shapes(path_in(parameters, curvature_key), target, scale_of_curvature(parameters));
-    const auto start =
-        begin_branch(problem, rule, flat_guess(parameters, rule, problem.state_scales, resolution.elements), target);
     Search search;
-    if (!start) return search;
-    if (target == 0)
-        search.branch = Branch{*start, {}, BranchEnd::reached_target};
-    else
-        search.branch = follow_branch(problem, rule, *start, target, {}, off_the_axis, go_on);
-    if (search.branch->end == BranchEnd::reached_target)
-        search.state = refined(problem, rule, parameters, search.branch->last);
+    search.branch = branch_from_flat(parameters, parameters.membrane.spontaneous_curvature, resolution, go_on);
+    if (search.branch && search.branch->end == BranchEnd::reached_target)
+        search.state =
+            refined(shapes_in_curvature(parameters), GaussRule(resolution.points), parameters, search.branch->last);
     return search;
 }
 
@@ -134,6 +125,22 @@ std::string end_in_patch_radius(const Parameters& parameters, const Resolution& 
 }
 
 }  // namespace
+
+std::optional<Branch> branch_from_flat(const Parameters& parameters, double curvature, const Resolution& resolution,
+                                       const Visitor& go_on) {
+    const GaussRule rule(resolution.points);
+    const BoundaryValueProblem problem = shapes_in_curvature(parameters);
+    const auto start =
+        begin_branch(problem, rule, flat_guess(parameters, rule, problem.state_scales, resolution.elements), curvature);
+    if (!start) return std::nullopt;
+    if (curvature == 0) return Branch{*start, {}, BranchEnd::reached_target};
+    return follow_branch(problem, rule, *start, curvature, {}, off_the_axis, go_on);
+}
+
+double scale_of_curvature(const Parameters& parameters) {
+    const double curvature = std::abs(parameters.membrane.spontaneous_curvature);
+    return curvature > 0 ? curvature : 1 / parameters.domain.radius;
+}
 
 CasePath path_in(const Parameters& parameters, const std::string& key) {
     return [parameters, &row = *find_parameter(key)](double value) {

@@ -33,6 +33,14 @@ inline constexpr double closed_neck_radius = 1.0;
 /// The stationary state that is connected with the flat membrane: the first one that is met at the case's H0 and loads.
 [[nodiscard]] Search search_stationary_state(const Parameters& parameters, const Resolution& resolution = {});
 
+/// The branch from the flat membrane in membrane.spontaneous_curvature, from 0 to `curvature`, as long as `go_on` says
+/// so. Empty when Newton's method fails at once.
+[[nodiscard]] std::optional<Branch> branch_from_flat(const Parameters& parameters, double curvature,
+                                                     const Resolution& resolution, const Visitor& go_on);
+
+/// |H0|, or what stands for it where that is 0, 1/nm.
+[[nodiscard]] double scale_of_curvature(const Parameters& parameters);
+
 /// The path of cases that differ in one number of the parameter table.
 [[nodiscard]] CasePath path_in(const Parameters& parameters, const std::string& key);
 

@@ -79,7 +79,7 @@ ExitReason write_branch(const Parameters& parameters, const Request& request, co
         throw SolverError("no-convergence", "Newton's method failed at the first point of the branch",
                           "choose another parameter or start from another case");
     if (interruption_signal() != 0) return ExitReason::interrupted;
-    describe_branch(writer, key, begin, *branch, to_string(branch->end));
+    describe_branch(writer, key, find_parameter(key)->unit, begin, *branch, to_string(branch->end));
     return ExitReason::done;
 }
 

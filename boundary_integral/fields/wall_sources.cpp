@@ -5,12 +5,12 @@ namespace endoflow::boundary_integral {
 namespace {
 
 /// The eight Gauss points of a panel have 1e-8 from 0.7 of its length on: 3.1^-16, 3.1 the ellipse through the target.
-constexpr WallQuadrature quadrature{.near_distance = 0.7};
+constexpr WallQuadrature wall_quadrature{.near_distance = 0.7};
 
 }  // namespace
 
 WallSources::WallSources(const WallPanels& walls, const Eigen::VectorXd& unknowns)
-    : walls_(walls), surface_(walls, quadrature), nodes_(walls.nodes().size()) {
+    : walls_(walls), surface_(walls, wall_quadrature), nodes_(walls.nodes().size()) {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         const Index row = 2 * static_cast<Index>(i);
         nodes_[i].u_r = unknowns[row];

@@ -63,25 +63,25 @@ AlongRun::AlongRun(const RecordedRun& run, int first_mode, int last_mode)
     }
 }
 
-void AlongRun::for_modes(const std::function<void(int mode, std::size_t index)>& work) const {
+void AlongRun::for_modes(int first_mode, const std::function<void(int mode, std::size_t index)>& work) const {
     const int threads = thread_count(parameters_.boundary_integral.threads);
-    parallel_parts(last_mode() - first_mode_ + 1, threads, [&](Index begin, Index end) {
-        for (Index k = begin; k < end; ++k) work(first_mode_ + static_cast<int>(k), static_cast<std::size_t>(k));
+    parallel_parts(last_mode() - first_mode + 1, threads, [&](Index begin, Index end) {
+        for (Index k = begin; k < end; ++k) work(first_mode + static_cast<int>(k), static_cast<std::size_t>(k));
     });
 }
 
-Moment AlongRun::moment(double time) const {
-    Moment result{time, dynamics_.evaluate(time, trajectory_.state(time)), nullptr, {}};
+Moment AlongRun::moment(double time, int first_mode) const {
+    Moment result{time, first_mode, dynamics_.evaluate(time, trajectory_.state(time)), nullptr, {}};
     result.membrane =
         std::make_unique<LinearisedMembrane>(parameters_, surroundings_, engine_state(dynamics_, result.evaluation));
-    result.rates.resize(static_cast<std::size_t>(last_mode() - first_mode_) + 1);
-    for_modes([&](int mode, std::size_t k) { result.rates[k] = result.membrane->rates(mode); });
+    result.rates.resize(static_cast<std::size_t>(last_mode() - first_mode) + 1);
+    for_modes(first_mode, [&](int mode, std::size_t k) { result.rates[k] = result.membrane->rates(mode); });
     return result;
 }
 
 std::vector<LinearRate> AlongRun::mesh_rates(const Moment& moment) const {
     std::vector<LinearRate> result(moment.rates.size());
-    for_modes([&](int mode, std::size_t k) {
+    for_modes(moment.first_mode, [&](int mode, std::size_t k) {
         result[k] = mesh_rate(*moment.membrane, surroundings_.space(mode), moment.rates[k],
                               moment.evaluation.relative_velocity, parameters_.molecules.interface_width);
     });

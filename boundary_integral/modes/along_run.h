@@ -14,13 +14,20 @@
 
 namespace endoflow::boundary_integral {
 
-/// The linearised membrane at one time, for modes first ... last of the run that is followed.
+/// The linearised membrane at one time, for modes first_mode ... last of the run that is followed.
 struct Moment {
     double time;  // µs
+    int first_mode;
     Evaluation evaluation;
     std::unique_ptr<LinearisedMembrane> membrane;
     std::vector<ModeRates> rates;
+    [[nodiscard]] const ModeRates& rates_of(int mode) const {
+        return rates[static_cast<std::size_t>(mode - first_mode)];
+    }
 };
+
+/// Of propagations from a run's start, µs.
+inline constexpr double first_propagation_step = 1e-7;
 
 class AlongRun {
   public:
@@ -38,7 +45,7 @@ class AlongRun {
     [[nodiscard]] int last_mode() const { return surroundings_.highest_mode(); }
     [[nodiscard]] double distance() const { return distance_; }  // largest, of a recorded point from the motion, nm
 
-    [[nodiscard]] Moment moment(double time) const;
+    [[nodiscard]] Moment moment(double time, int first_mode) const;
 
     /// dy/dt of each mode on the run's mesh.
     [[nodiscard]] std::vector<LinearRate> mesh_rates(const Moment& moment) const;
@@ -51,8 +58,8 @@ class AlongRun {
     BaseTrajectory trajectory_;
     double distance_ = 0.0;
 
-    /// Calls work(mode, its index) for each mode, in as many threads as the run asks for.
-    void for_modes(const std::function<void(int mode, std::size_t index)>& work) const;
+    /// Calls work(mode, its index) for each mode from the first on, in as many threads as the run asks for.
+    void for_modes(int first_mode, const std::function<void(int mode, std::size_t index)>& work) const;
 };
 
 }  // namespace endoflow::boundary_integral

@@ -1,22 +1,15 @@
 #include "boundary_integral/modes/linear_propagation.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "boundary_integral/flow/dense_solver.h"
-#include "boundary_integral/integration/stiff_integrator.h"
 #include "boundary_integral/support/parallel.h"
-#include "shared/support/error.h"
 
 namespace endoflow::boundary_integral {
 
 namespace {
-
-constexpr double smallest_factor = 0.2, largest_factor = 4.0, safety = 0.9;
 
 // Radau IIA: nodes, weights, and the filter of the error estimate (Hairer & Wanner, eqs. IV.5.9, IV.8.17-8.20).
 struct Radau {
@@ -79,8 +72,8 @@ LinearPropagation::LinearPropagation(Rates rates, double begin, std::vector<Eige
                                      double tolerance, int threads)
     : rates_(std::move(rates)),
       time_(begin),
-      step_(first_step),
       tolerance_(tolerance),
+      control_(first_step, 3),
       threads_(threads),
       values_(std::move(start)) {
     now_ = evaluate(begin);
@@ -92,45 +85,26 @@ std::vector<LinearRate> LinearPropagation::evaluate(double time) {
 }
 
 void LinearPropagation::advance(double end) {
-    while (time_ < end) {
-        const double left = end - time_;
-        const bool last = step_ > 0.99 * left;
-        attempt(last ? left : std::min(step_, 0.5 * left), last ? end : 0.0);
-        if (step_ < smallest_step) {
-            throw SolverError(
-                "modes-step-underflow",
-                fmt::format("the step of the perturbations fell to {:.2g} µs at t = {:.6g} µs", step_, time_),
-                "use more elements in the run");
-        }
-    }
+    while (time_ < end) attempt(control_.next(time_, end));
 }
 
-// `end` is where the step ends when that has to be exact, otherwise 0.
-void LinearPropagation::attempt(double step, double end) {
-    const double after = end > 0.0 ? end : time_ + step;
-    const std::array<std::vector<LinearRate>, 3> stages = {evaluate(time_ + radau.node[0] * step),
-                                                           evaluate(time_ + radau.node[1] * step), evaluate(after)};
+void LinearPropagation::attempt(const StepControl::Step& step) {
+    const std::array<std::vector<LinearRate>, 3> stages = {evaluate(time_ + radau.node[0] * step.length),
+                                                           evaluate(time_ + radau.node[1] * step.length),
+                                                           evaluate(step.end)};
     std::vector<Trial> trials(values_.size());
     parallel_parts(static_cast<Eigen::Index>(values_.size()), threads_, [&](Eigen::Index begin, Eigen::Index stop) {
         for (Eigen::Index k = begin; k < stop; ++k) {
             const auto i = static_cast<std::size_t>(k);
-            trials[i] = step_of(step, values_[i], now_[i], {&stages[0][i], &stages[1][i], &stages[2][i]});
+            trials[i] = step_of(step.length, values_[i], now_[i], {&stages[0][i], &stages[1][i], &stages[2][i]});
         }
     });
     double error = 0.0;
     for (const Trial& trial : trials) error = trial.error <= error ? error : trial.error;  // keeps what is no number
-    error /= tolerance_;
-    const double factor =
-        error >= 0.0 ? std::clamp(safety * std::pow(error, -0.25), smallest_factor, largest_factor) : smallest_factor;
-    if (!(error <= 1.0)) {
-        step_ = step * std::min(factor, safety);
-        return;
-    }
-    // A step that was cut to meet a time says little about the next one.
-    step_ = end > 0.0 && factor > 1.0 ? std::max(step_, step * factor) : step * factor;
+    if (!control_.accepts(step, error / tolerance_)) return;
     for (std::size_t i = 0; i < trials.size(); ++i) values_[i] = std::move(trials[i].value);
     now_ = stages[2];
-    time_ = after;
+    time_ = step.end;
     ++steps_;
 }
 

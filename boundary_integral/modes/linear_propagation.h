@@ -6,6 +6,8 @@
 #include <functional>
 #include <vector>
 
+#include "boundary_integral/modes/step_control.h"
+
 namespace endoflow::boundary_integral {
 
 /// L at one time, and the norm that errors are measured in.
@@ -36,14 +38,15 @@ class LinearPropagation {
 
   private:
     Rates rates_;
-    double time_, step_, tolerance_;
+    double time_, tolerance_;
+    StepControl control_;
     int threads_;
     std::vector<Eigen::MatrixXd> values_;
     std::vector<LinearRate> now_;
     long steps_ = 0, evaluations_ = 0;
 
     std::vector<LinearRate> evaluate(double time);
-    void attempt(double step, double end);
+    void attempt(const StepControl::Step& step);
 };
 
 }  // namespace endoflow::boundary_integral

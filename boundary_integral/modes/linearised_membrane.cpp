@@ -161,7 +161,8 @@ ModeRates LinearisedMembrane::rates(int mode) const {
     Eigen::MatrixXd violation = divergence * velocity;
     violation.leftCols(displacements) +=
         tension.transpose() * (forms.divergence * imposed + forms.divergence_variation * displaced);
-    velocity -= response * LuFactors(divergence * response, "tension").solve(violation);
+    const LuFactors tensions(divergence * response, "tension");
+    velocity -= response * tensions.solve(violation);
 
     ModeRates rates;
     rates.displacements = displacements;
@@ -175,18 +176,25 @@ ModeRates LinearisedMembrane::rates(int mode) const {
     const Eigen::MatrixXd scalars = scalar_mass(space, points_);
     const LuFactors w_mass(displaced.transpose() * scalars * displaced, "displacement mass");
     const LuFactors c_mass(scalar.transpose() * scalars * scalar, "concentration mass");
-    Eigen::MatrixXd c_rate = -(scalar.transpose() * forms.along) * rates.velocity;
+    Eigen::MatrixXd carried = -(scalar.transpose() * forms.along);  // weak rate of c' by the physical velocity
+    Eigen::MatrixXd c_rate = Eigen::MatrixXd::Zero(scalar.cols(), displacements + scalar.cols());
     c_rate.leftCols(displacements) += scalar.transpose() * (molecules.by_displacement - forms.turning) * displaced;
     c_rate.rightCols(scalar.cols()) += scalar.transpose() * molecules.by_concentration * scalar;
     if (space.clamped()) {
         const Index last = scalar.cols() - 1;  // the only function that does not vanish at the rim
         const MembraneState& state = base_.membrane;
         const double radius = state.r[state.r.size() - 1], concentration = state.c[state.c.size() - 1];
-        c_rate.row(last) += radius * concentration * rates.velocity.row(space.radial_at_rim());
+        carried(last, space.radial_at_rim()) += radius * concentration;
         c_rate(last, displacements + last) += radius * base_.inflow;
     }
+    c_rate += carried * rates.velocity;
     rates.material.resize(displacements + scalar.cols(), displacements + scalar.cols());
     rates.material << w_mass.solve(displaced.transpose() * forms.normal * rates.velocity), c_mass.solve(c_rate);
+
+    Eigen::MatrixXd moved_by(displacements + scalar.cols(), count);  // dy/dt by the free velocities
+    moved_by << w_mass.solve(displaced.transpose() * forms.normal * velocities), c_mass.solve(carried * velocities);
+    const Eigen::MatrixXd driven = mobility * moved_by.transpose();
+    rates.thermal_mobility = moved_by * (driven - response * tensions.solve(divergence * driven));
     return rates;
 }
 

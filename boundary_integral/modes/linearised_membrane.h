@@ -17,6 +17,9 @@ struct ModeRates {
     // The velocity of the displaced material (physical coefficients) that goes with y.
     Eigen::MatrixXd velocity;
     Eigen::MatrixXd mobility;  // free velocities from their loads, without inextensibility
+    // M: dy/dt at fixed coordinates of the material by loads L_k = int l psi_k dA on y, the membrane inextensible, the
+    // fluids incompressible. Symmetric and positive but for the collocation's error.
+    Eigen::MatrixXd thermal_mobility;
 };
 
 class LinearisedMembrane {

@@ -29,11 +29,10 @@ std::vector<double> ModeFiles::add(const PerturbationGrowth& growth) {
     group_ = fmt::format("/times/{:06d}", count_++);
     shapes_.create_group(group_);
     shapes_.write_attribute(group_, "time", moment.time);
-    write_base(moment);
+    write_meridian(shapes_, group_, run_, moment);
     std::vector<double> largest;
     for (int mode = run_.first_mode(); mode <= run_.last_mode(); ++mode) {
-        const auto index = static_cast<std::size_t>(mode - run_.first_mode());
-        largest.push_back(write_mode(mode, moment, moment.rates[index]));
+        largest.push_back(write_mode(mode, moment, moment.rates_of(mode)));
         write_perturbations(mode, growth);
     }
     return largest;
@@ -49,22 +48,22 @@ void ModeFiles::write(const std::string& name, const Eigen::VectorXd& column) {
     shapes_.write_array(name, {column.data(), column.data() + column.size()});
 }
 
-void ModeFiles::write_base(const Moment& moment) {
+void write_meridian(Hdf5File& file, const std::string& group, const AlongRun& run, const Moment& moment) {
+    const MembraneSpace& space = run.dynamics().space();
     std::vector<double> r, z, n_r, n_z, c;
-    for (const double xi : points_) {
-        const BasePoint p =
-            base_point(run_.dynamics().space(), moment.membrane->base(), run_.surroundings().viscosities(), xi);
+    for (const double xi : meridian_points(space)) {
+        const BasePoint p = base_point(space, moment.membrane->base(), run.surroundings().viscosities(), xi);
         r.push_back(xi == 0.0 ? 0.0 : p.curve.r);
         z.push_back(p.curve.z);
         n_r.push_back(p.curve.normal_r);
         n_z.push_back(p.curve.normal_z);
         c.push_back(p.c);
     }
-    shapes_.write_array(group_ + "/r", r);
-    shapes_.write_array(group_ + "/z", z);
-    shapes_.write_array(group_ + "/normal_r", n_r);
-    shapes_.write_array(group_ + "/normal_z", n_z);
-    shapes_.write_array(group_ + "/c", c);
+    file.write_array(group + "/r", r);
+    file.write_array(group + "/z", z);
+    file.write_array(group + "/normal_r", n_r);
+    file.write_array(group + "/normal_z", n_z);
+    file.write_array(group + "/c", c);
 }
 
 // Returns the largest growth rate.

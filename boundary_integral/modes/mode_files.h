@@ -10,6 +10,9 @@
 
 namespace endoflow::boundary_integral {
 
+/// r, z, normal_r, normal_z and c at the meridian's points, into a group.
+void write_meridian(Hdf5File& file, const std::string& group, const AlongRun& run, const Moment& moment);
+
 class ModeFiles {
   public:
     ModeFiles(const std::filesystem::path& directory, const AlongRun& run);
@@ -30,7 +33,6 @@ class ModeFiles {
     std::string perturbations_ = "time_us,mode,initial,peak_nm,rms_nm,gain\n";
 
     void write(const std::string& name, const Eigen::VectorXd& column);
-    void write_base(const Moment& moment);
     double write_mode(int mode, const Moment& moment, const ModeRates& rates);
     void write_perturbations(int mode, const PerturbationGrowth& growth);
 };

@@ -45,11 +45,11 @@ std::vector<ModeLayers> mode_layers(const MembraneSpace& space, const ParitySpac
                    RowMatrix::Zero(rows, lateral + spaces.quintic[parity].dimension())};
         columns.push_back(columns_of(mode, spaces, of_mode));
     }
-    std::vector<MembraneFunctions> functions = membrane_functions(space);
+    std::vector<MembraneFunctions> on_membrane = membrane_functions(space);
     const std::vector<BasisRow> odd_force_rows = rows_at_gauss_points(space, spaces.force[1]);
-    functions.push_back({spaces.force[1], odd_force_rows});
+    on_membrane.push_back({spaces.force[1], odd_force_rows});
     const MembraneSamples samples = sample(space, state);
-    const MembraneSurface surface(space, state, samples, functions, {});
+    const MembraneSurface surface(space, state, samples, on_membrane, {});
     add_layers(surface, targets, columns, threads, [&] { return AzimuthalKernels(highest_mode); });
     return layers;
 }

@@ -9,29 +9,15 @@
 
 namespace endoflow::boundary_integral {
 
-namespace {
-
-constexpr double first_step = 1e-7;  // µs
-
-double area_of(const MembraneSpace& space, const BasePoints& base) {
-    double area = 0.0;
-    for (std::size_t i = 0; i < base.points.size(); ++i) {
-        area += 2.0 * std::numbers::pi * space.weight[i] * base.points[i].curve.r * base.points[i].curve.g;
-    }
-    return area;
-}
-
-}  // namespace
-
 PerturbationGrowth::PerturbationGrowth(const AlongRun& run, double tolerance)
     : run_(run),
-      moment_(run.moment(0.0)),
+      moment_(run.moment(0.0, run.first_mode())),
       points_(meridian_points(run.dynamics().space())),
-      propagation_([this](double time) { return rates(time); }, 0.0, starts(), first_step, tolerance,
+      propagation_([this](double time) { return rates(time); }, 0.0, starts(), first_propagation_step, tolerance,
                    thread_count(run.parameters().boundary_integral.threads)) {}
 
 std::vector<LinearRate> PerturbationGrowth::rates(double time) {
-    if (time != moment_.time) moment_ = run_.moment(time);
+    if (time != moment_.time) moment_ = run_.moment(time, run_.first_mode());
     return run_.mesh_rates(moment_);
 }
 

@@ -18,6 +18,14 @@ PerturbationNorms perturbation_norms(const ModeSpace& space, const BasePoints& p
     return {factor(space.displacement_expansion()), factor(space.scalar().expansion())};
 }
 
+double area_of(const MembraneSpace& space, const BasePoints& base) {
+    double area = 0.0;
+    for (std::size_t i = 0; i < base.points.size(); ++i) {
+        area += 2.0 * std::numbers::pi * space.weight[i] * base.points[i].curve.r * base.points[i].curve.g;
+    }
+    return area;
+}
+
 LinearRate mesh_rate(const LinearisedMembrane& membrane, const ModeSpace& space, const ModeRates& rates,
                      const std::vector<double>& relative_velocity, double concentration_length) {
     std::vector<double> speed;

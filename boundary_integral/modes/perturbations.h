@@ -17,6 +17,9 @@ struct PerturbationNorms {
 };
 [[nodiscard]] PerturbationNorms perturbation_norms(const ModeSpace& space, const BasePoints& points);
 
+/// Of the membrane, nm^2.
+[[nodiscard]] double area_of(const MembraneSpace& space, const BasePoints& base);
+
 /// dy/dt for the coefficients of the run's own moving mesh; `relative_velocity` as in Evaluation. Errors are measured
 /// in w, and in c' times `concentration_length` (nm).
 [[nodiscard]] LinearRate mesh_rate(const LinearisedMembrane& membrane, const ModeSpace& space, const ModeRates& rates,

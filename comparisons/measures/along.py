@@ -54,7 +54,7 @@ class BranchError(EndoflowError):
     def __init__(self, run):
         super().__init__(
             f"{run.directory}: holds a branch of {len(run.shapes)} stationary shapes, one is wanted; "
-            "repeat `endoflow statics` without --continue-in"
+            "repeat `endoflow statics` without --continue-in or --hold"
         )
 
 

@@ -9,7 +9,7 @@ from comparisons.drawing import style
 from comparisons.drawing.plots import save_all
 from comparisons.drawing.style import plt
 from comparisons.drawing.surfaces import Revolved
-from comparisons.page import html
+from comparisons.page import html, noise_plots
 from comparisons.page.html import escaped, figures, quantity
 from endoflow.curves import resample
 
@@ -50,6 +50,8 @@ def write_all(modes, directory):
         "modes_perturbations": ("What 0.1 nm becomes", perturbations(modes)),
         "modes_shapes": ("The fastest mode's displacement, drawn 4 nm large", shapes(modes)),
     }
+    if modes.noise is not None:
+        figures |= noise_plots.plots(modes.noise)
     return save_all(figures, directory)
 
 
@@ -160,6 +162,7 @@ def modes_html(modes, basis, drawn, directory):
         ("Plots", html.plots(drawn, directory)),
         (f"Largest displacement (nm) {end_text(modes)}", perturbation_table(modes)),
         ("Largest growth rates (1/µs)", rate_table(modes)),
+        *([("Thermal noise", noise_plots.noise_table(modes.noise))] if modes.noise is not None else []),
         *html.common_basis_section(basis),
     ]
     data = json.dumps(report_data(modes), allow_nan=False, separators=(",", ":"))
@@ -170,7 +173,7 @@ def modes_html(modes, basis, drawn, directory):
         subtitle=escaped(
             f"Perturbations cos mφ of an axisymmetric run, m = {modes.modes[0]} to {modes.modes[-1]}, to {modes.times[-1]:.4g} µs"
         ),
-        cards=html.card_section(cards(modes)),
+        cards=html.card_section([*cards(modes), *(noise_plots.cards(modes.noise) if modes.noise is not None else [])]),
         sections=html.source("modes.html") + html.section_texts(sections),
         origin=f"in <code>{escaped(directory)}</code>",
         scripts=SCRIPTS,
@@ -232,8 +235,10 @@ def report_data(modes):
         return [round(float(value), DIGITS) for value in values]
 
     frames = []
-    for meridian in modes.meridians:
+    noisy = [None] * len(modes.meridians) if modes.noise is None else modes.noise.meridians
+    for meridian, noise in zip(modes.meridians, noisy):
         chosen = [meridian.modes[m] for m in modes.modes]
+        sigmas = [] if noise is None else [noise.rms[m] for m in modes.modes]
         length = np.concatenate(([0], np.cumsum(np.hypot(np.diff(meridian.r), np.diff(meridian.z)))))[-1]
         r, z, n_r, n_z, c, *w = resample(
             meridian.r,
@@ -244,6 +249,7 @@ def report_data(modes):
             meridian.c,
             *(shapes.w for shapes in chosen),
             *(shapes.worst / max(np.abs(shapes.worst).max(), 1e-300) for shapes in chosen),
+            *(sigma / sigma.max() for sigma in sigmas),
         )
         count = len(chosen)
         frames.append(
@@ -255,9 +261,14 @@ def report_data(modes):
                 "nz": rounded(n_z),
                 "c": rounded(c),
                 "fastest": [rounded(values) for values in w[:count]],
-                "worst": [rounded(values) for values in w[count:]],
+                "worst": [rounded(values) for values in w[count : 2 * count]],
                 "rates": [float(f"{shapes.growth:.4g}") for shapes in chosen],
                 "peaks": [float(f"{np.abs(shapes.worst).max():.3g}") for shapes in chosen],
             }
         )
+        if noise is not None:
+            frames[-1] |= {
+                "noise": [rounded(values) for values in w[2 * count :]],
+                "sigmas": [float(f"{sigma.max():.3g}") for sigma in sigmas],
+            }
     return {"modes": modes.modes, "frames": frames, "start": modes.last_index, "budding": modes.budding}

@@ -15,8 +15,8 @@ QUESTIONS = ("mobility", "attribution", "timescale", "inertia")
 #: What `endoflow reproduce all` makes.
 NAMES = PRINTED + QUESTIONS
 
-#: Items of other papers, branches of stationary shapes, which `all` leaves out.
-OTHER_NAMES = ("hassinger2017", "derenyi2002", "juelicher1996")
+#: Items of other papers and questions, branches of stationary shapes, which `all` leaves out.
+OTHER_NAMES = ("hassinger2017", "derenyi2002", "juelicher1996", "collar")
 
 
 def item_module(item):

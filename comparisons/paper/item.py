@@ -1,4 +1,4 @@
-"""What an item of the paper is made of: runs, or branches of stationary shapes by `endoflow statics --continue-in`."""
+"""What an item of the paper is made of: runs, or branches of stationary shapes by `endoflow statics`."""
 
 import math
 import subprocess
@@ -146,25 +146,40 @@ def not_run_remarks(runs):
 
 @dataclass(frozen=True)
 class Branch:
-    """columns: {name: array} of its rows, in the branch's order; folds: values of the key there; ended: why it ends."""
+    """columns: {name: array} of its rows, in the branch's order; folds: values of the key there; ended: why it ends.
+
+    work: of held necks, run.json's notes.held_neck.
+    """
 
     columns: dict
     folds: list
     ended: str
+    work: dict = field(default_factory=dict)
 
 
 def followed(case, key, end, settings):
     """The Branch of cases/CASE.toml with settings {section.key: text} in a key, to its value `end`. Raises StudyError."""
+    return branch_by(case, ["--continue-in", f"{key}={end:g}"], settings)
+
+
+def held(case, first, last, settings):
+    """The Branch of shapes whose neck is held from a radius ("open" or text of a number, nm) to another. Raises StudyError."""
+    return branch_by(case, ["--hold", f"neck_radius={first}:{last}"], settings)
+
+
+def branch_by(case, request, settings):
+    """The Branch that `endoflow statics` makes of a request, options of its command line. Raises StudyError."""
     with tempfile.TemporaryDirectory() as scratch:
         directory = Path(scratch) / "branch"
         words = [str(program()), "statics", str(ROOT / "cases" / f"{case}.toml"), "-o", str(directory)]
         for name, value in settings.items():
             words += ["--set", f"{name}={value}"]
-        done = subprocess.run([*words, "--continue-in", f"{key}={end:g}"], capture_output=True, text=True, check=False)
+        done = subprocess.run([*words, *request], capture_output=True, text=True, check=False)
         if not (directory / "run.json").exists() or done.returncode not in (0, RUN_FAILED):
             raise StudyError(last_word(done.stderr), RUN_FAILED)
         run = endoflow.load(directory)
     notes = run.record["notes"].get("branch")
     if notes is None:
         raise StudyError(last_word(done.stderr), RUN_FAILED)
-    return Branch(dict(run.history), [fold["value"] for fold in notes["folds"]], notes["ended_because"])
+    folds = [fold["value"] for fold in notes["folds"]]
+    return Branch(dict(run.history), folds, notes["ended_because"], run.record["notes"].get("held_neck", {}))

@@ -16,6 +16,7 @@ from .commands import compare, infer, run, statics, sweep
 from .errors import EndoflowError, OutOfRangeError, RunDirectoryError
 from .fields import Fields
 from .modes import Modes, load_modes
+from .noise import Noise
 from .program import FileError, InputError, ProgramError, SolverError, program
 from .run_directory import Run, load
 from .shapes import Shape
@@ -27,6 +28,7 @@ __all__ = [
     "FileError",
     "InputError",
     "Modes",
+    "Noise",
     "OutOfRangeError",
     "ProgramError",
     "Run",

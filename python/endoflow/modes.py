@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Union
@@ -12,6 +11,7 @@ import numpy as np
 from .arrays import Array
 from .errors import RunDirectoryError
 from .hdf5 import h5py
+from .noise import Noise, rows_of
 
 REMEDY = "repeat `endoflow modes`"
 
@@ -48,7 +48,8 @@ class Meridian:
 class Modes:
     """All of a directory. times (n,) in µs; budding: µs or None.
 
-    rates: {m: (n,) largest growth rate, 1/µs}; perturbations: {(m, initial shape): {"peak_nm", "rms_nm", "gain": (n,)}}.
+    rates: {m: (n,) largest growth rate, 1/µs}; perturbations: {(m, initial shape): {"peak_nm", "rms_nm", "gain": (n,)}};
+    noise: that of `--noise`, None without it.
     """
 
     directory: Path
@@ -57,6 +58,7 @@ class Modes:
     meridians: list[Meridian]
     rates: dict[int, Array]
     perturbations: dict[tuple[int, str], dict[str, Array]]
+    noise: Noise | None = None
 
     @property
     def modes(self) -> list[int]:
@@ -82,8 +84,8 @@ def load_modes(directory: Union[str, Path]) -> Modes:
             times = file["times"]
             budding = times.attrs.get("budding_us")
             meridians = sorted((_meridian(group) for group in times.values()), key=lambda meridian: meridian.time)
-        spectrum = _rows(directory / "modes.csv")
-        followed = _rows(directory / "perturbations.csv")
+        spectrum = rows_of(directory / "modes.csv")
+        followed = rows_of(directory / "perturbations.csv")
         rates: dict[int, list[float]] = {}
         perturbations: dict[tuple[int, str], dict[str, list[float]]] = {}
         for row in spectrum:
@@ -93,6 +95,7 @@ def load_modes(directory: Union[str, Path]) -> Modes:
             entry = perturbations.setdefault((int(row["mode"]), row["initial"]), {})
             for name in ("peak_nm", "rms_nm", "gain"):
                 entry.setdefault(name, []).append(float(row[name] or "nan"))
+        noise = Noise.read(directory)
     except (OSError, KeyError, ValueError) as error:
         reason = str(error).splitlines()[0]
         raise RunDirectoryError(directory, f"holds no modes of a run ({reason})", REMEDY) from None
@@ -105,12 +108,8 @@ def load_modes(directory: Union[str, Path]) -> Modes:
         meridians,
         {mode: np.array(values) for mode, values in rates.items()},
         {key: {name: np.array(v) for name, v in entry.items()} for key, entry in perturbations.items()},
+        noise,
     )
-
-
-def _rows(path: Path) -> list[dict[str, str]]:
-    with path.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
 
 
 def _meridian(group: h5py.Group) -> Meridian:

@@ -168,6 +168,8 @@ std::vector<ParameterRow> membrane_rows() {
             "force on the membrane around the axis, as of growing actin; > 0 pulls it into the cell"),
         row("membrane", "pole_force_width", &P::membrane, &S::pole_force_width, "nm", {0.1, 1e3}, "w",
             "the pole force's density falls off as exp(-a/(π w^2)), a the membrane's area from the pole"),
+        row("membrane", "gaussian_stiffness", &P::membrane, &S::gaussian_stiffness, "pN nm", {-1e5, 1e5}, "κ_G",
+            "energy per Gaussian curvature; only statics --hold names it: scission of a neck costs 4π κ_G more"),
     };
 }
 
@@ -203,7 +205,7 @@ std::vector<ParameterRow> molecule_rows() {
         row("molecules", "curvature_sensing", &P::molecules, &S::curvature_sensing, "", at_least(0, 1), "s",
             "reservoir: part of ∂e/∂c, the bending energy a molecule frees by leaving, that makes it leave faster"),
         row("molecules", "thermal_energy", &P::molecules, &S::thermal_energy, "pN nm", {0.1, 1e3}, "k_B T",
-            "what curvature sensing compares energies with; 4.11 pN nm at 25 °C"),
+            "what curvature sensing and barriers are compared with; 4.11 pN nm at 25 °C, 4.28 at 37 °C"),
         row("molecules", "molecule_area", &P::molecules, &S::molecule_area, "nm^2", at_least(0, 1e4), "a₀",
             "membrane's area per molecule, for curvature sensing and for molecules from a bulk"),
         row("molecules", "edge_speed", &P::molecules, &S::edge_speed, "nm/µs", at_least(0, 1e3), "v",

@@ -58,6 +58,7 @@ struct MembraneParameters {
     double rim_tension = 0;
     double pole_force = 0;
     double pole_force_width = 5;
+    double gaussian_stiffness = 0;
 };
 
 struct MoleculeParameters {

@@ -152,7 +152,7 @@ TEST_CASE("a problem that cannot be integrated ends with a name", "[integrator][
     StiffProblem p = problem(1e-6);
     p.rate = [rate = p.rate](double time, const Eigen::VectorXd& y) -> Eigen::VectorXd {
         if (y[2] > 0.1) return Eigen::Vector3d::Constant(std::nan(""));
-        return rate(y);
+        return rate(time, y);
     };
     double reached = 0;
     const SolverError failure = failure_of(p, reached);
@@ -188,7 +188,7 @@ TEST_CASE("a residual that is not finite costs one rejected step", "[integrator]
         StiffProblem p = problem(1e-6);
         int calls = 0;
         p.rate = [rate = p.rate, &calls, fault](double time, const Eigen::VectorXd& y) -> Eigen::VectorXd {
-            Eigen::VectorXd value = rate(y);
+            Eigen::VectorXd value = rate(time, y);
             if (++calls == 40) value[1] = fault;
             return value;
         };

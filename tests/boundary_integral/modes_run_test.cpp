@@ -1,13 +1,18 @@
 // Modes of a finished run, from its directory.
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
+#include "boundary_integral/modes/noise_growth.h"
 #include "boundary_integral/modes/perturbation_growth.h"
 #include "boundary_integral/modes/run_modes.h"
 #include "boundary_integral/modes/spectrum.h"
+#include "boundary_integral/modes/thermal_noise.h"
 #include "boundary_integral/simulation.h"
 #include "shared/output/hdf5_file.h"
 #include "shared/output/run_files.h"
@@ -103,6 +108,66 @@ TEST_CASE("perturbations of a run's start: the worst is worse than any other", "
         }
         CHECK(growth.worst_at_start(mode).peak == Approx(initial_amplitude).epsilon(1e-9));
     }
+}
+
+TEST_CASE("thermal noise about a run: from equilibrium on, carried by the propagator", "[modes]") {
+    const ScratchDirectory scratch;
+    Parameters parameters = short_run();
+    parameters.time.end = 0.05;
+    {
+        RunFiles output(parameters, identity(parameters), scratch.path, StartMode::fresh);
+        output.finish(simulate(parameters, output));
+    }
+    const AlongRun run(RecordedRun(scratch.path), 1, 2);
+    constexpr double temperature = 310;
+    NoiseGrowth noise(run, temperature, 1e-2);
+    // k_B T times the compliance of a clamped plate at its middle, R^2/(16 pi beta); its kink there is a spline's.
+    const double compliance = std::pow(parameters.domain.radius, 2) /
+                              (16 * std::numbers::pi * BendingModel(parameters.membrane).stiffness(0).value);
+    CHECK(noise.shape().height_spread.total ==
+          Approx(std::sqrt(boltzmann_constant * temperature * compliance)).epsilon(1e-3));
+    CHECK_FALSE(noise.shape().bud);
+
+    std::vector<Eigen::MatrixXd> start;
+    for (const int mode : {1, 2}) start.push_back(noise.values()[static_cast<std::size_t>(mode)].inherited_root);
+    LinearPropagation propagation([&](double time) { return run.mesh_rates(run.moment(time, 1)); }, 0.0, start,
+                                  first_propagation_step, 1e-3);
+    noise.advance(0.02);
+    propagation.advance(0.02);
+    for (const int mode : {1, 2}) {
+        const Covariance& covariance = noise.values()[static_cast<std::size_t>(mode)];
+        const Eigen::MatrixXd& root = propagation.rates()[static_cast<std::size_t>(mode) - 1].root;
+        const Eigen::MatrixXd& expected = propagation.values()[static_cast<std::size_t>(mode) - 1];
+        // A step's tolerance, over some ten steps of order 3.
+        CHECK((root * (covariance.inherited_root - expected)).norm() < 1e-2 * (root * expected).norm());
+        CHECK(noise.rms(mode).total > noise.rms(mode).inherited);
+    }
+}
+
+TEST_CASE("what the noise of a run's directory writes, and what it refuses", "[modes]") {
+    const ScratchDirectory scratch;
+    Parameters parameters = short_run();
+    parameters.time.end = parameters.output.shape_interval = 1e-3;
+    {
+        RunFiles output(parameters, identity(parameters), scratch.path, StartMode::fresh);
+        output.finish(simulate(parameters, output));
+    }
+    const fs::path result = scratch.path / "modes";
+    const auto written = [&](int last, double temperature) {
+        write_modes({scratch.path, result, 1, last, 2, 1e-2, temperature}, [](const std::string&) {});
+    };
+    CHECK_THROWS_AS(written(1, 310), InputError);
+    CHECK_THROWS_AS(written(2, -3), InputError);
+    written(2, 310);
+    std::ifstream table(result / "noise.csv");
+    std::string header, first;
+    std::getline(table, header);
+    std::getline(table, first);
+    CHECK(std::count(header.begin(), header.end(), ',') == std::count(first.begin(), first.end(), ','));
+    CHECK(first.substr(first.size() - 9) == ",,,,,,,,,");  // no neck
+    const Hdf5File shapes(result / "noise.h5", Hdf5File::Mode::read);
+    CHECK(shapes.read_array("/times/000001/rms_0").size() == 321);
+    CHECK(shapes.read_array("/times/000001/rms_0").back() == 0.0);  // at the rim
 }
 
 TEST_CASE("a run whose membrane a force pulls has no modes, one under tension and pressure has", "[modes]") {

@@ -11,7 +11,7 @@ import numpy as np
 from comparisons.commands import reproduce
 from comparisons.commands.options import parsed
 from comparisons.errors import StudyError
-from comparisons.paper import OTHER_NAMES, derenyi2002, hassinger2017, item, item_module, juelicher1996
+from comparisons.paper import OTHER_NAMES, collar, derenyi2002, hassinger2017, item, item_module, juelicher1996
 from scratch import scratch_directory
 
 
@@ -80,6 +80,25 @@ class ReadOff(unittest.TestCase):
         self.assertIn("derenyi2002/report.html", (output / "index.html").read_text(), "an index of no runs")
         self.assertFalse((output / "runs.csv").exists())
 
+    def test_barriers_of_the_collar(self):
+        """A barrier in k_BT, a neck that closes by itself, and a case without a neck beside them."""
+        columns = {
+            "followed_value": np.array([15.0, 10.0, 3.0]),
+            "neck_force_pN": np.array([40.0, -50.0, -100.0]),
+            "neck_work_pN_nm": np.array([0.0, 42.8, 428.0]),
+            "potential_pN_nm": np.array([10.0, 52.8, 438.0]),
+        }
+        work = {"barrier_kT": 100.0, "strongest_constriction_pN": 100.0, "barrier_from_nm": 13.0, "barrier_to_nm": 3.0}
+        closing = {**work, "barrier_kT": 0.0, "strongest_constriction_pN": -60.0}
+        found = [item.Branch(columns, [], "reached the target", work), item.Branch(columns, [], "here", closing)]
+        with mock.patch.object(collar, "held", side_effect=found):
+            result = collar.result({}, True)
+        self.assertEqual(result.printed[0].ours[""], "15 to 3 nm: 100 k_BT from 13 to 3 nm, 100 pN at most")
+        self.assertIn("none, the neck closes by itself and pulls with 60 pN", result.printed[1].ours[""])
+        np.testing.assert_allclose([row["work_kT"] for row in result.rows[:3]], [0, 10, 100], rtol=1e-14)
+        with mock.patch.object(collar, "held", side_effect=[StudyError("no-held-neck: none", 3), found[0]]):
+            self.assertEqual(collar.result({}, True).printed[0].ours[""], "no-held-neck: none")
+
 
 class Followed(unittest.TestCase):
     """The program's own branches."""
@@ -90,7 +109,17 @@ class Followed(unittest.TestCase):
         self.assertEqual(branch.folds, [])
         self.assertIn("target", branch.ended)
 
+    def test_a_held_neck(self):
+        branch = item.held("standard", "12", "11", {"molecules.patch_radius": "22", "molecules.transport": "advection"})
+        self.assertAlmostEqual(branch.columns["followed_value"][-1], 11, places=9)
+        # The rise of the potential, to which the work's fourth order in the steps adds less than this.
+        rise = branch.columns["potential_pN_nm"][-1] - branch.columns["potential_pN_nm"][0]
+        self.assertAlmostEqual(branch.work["barrier_pN_nm"], rise, delta=1e-4)
+        self.assertLess(branch.columns["neck_force_pN"][-1], -20)
+
     def test_what_is_refused(self):
+        with self.assertRaises(StudyError):
+            item.held("standard", "nonsense", "3", {})
         with self.assertRaises(StudyError):
             item.followed("tube", "membrane.pole_forse", 10, {})
 

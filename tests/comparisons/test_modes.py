@@ -3,6 +3,7 @@
 python3 tests/comparisons/test_modes.py
 """
 
+import json
 import re
 import unittest
 
@@ -26,6 +27,18 @@ def growth(mode, time):
     return (1.5 if mode == 1 else -mode) * (1 - 0.3 * time)
 
 
+def write_meridian(file, number, time):
+    """A time's group (h5py) with its membrane; its r and z, nm."""
+    r, z, _ = synthetic.budding_membrane(time, 1.0).curve(400)
+    slope_r, slope_z = np.gradient(r), np.gradient(z)
+    length = np.hypot(slope_r, slope_z)
+    group = file.create_group(f"times/{number:06d}")
+    group.attrs["time"] = time
+    for name, values in {"r": r, "z": z, "normal_r": -slope_z / length, "normal_z": slope_r / length}.items():
+        group[name] = values
+    return group, r, z
+
+
 def write_tables(directory):
     """What endoflow-modes writes: w = sin(π s/L)^m, its amplitude 0.1 nm e^{−m t}."""
     rates = ["time_us,mode,rank,growth_per_us,frequency_rad_per_us,peak_r_nm,peak_z_nm"]
@@ -33,15 +46,8 @@ def write_tables(directory):
     with h5py.File(directory / "eigenshapes.h5", "w") as file:
         file.create_group("times").attrs["budding_us"] = BUDDING
         for number, time in enumerate(TIMES):
-            membrane = synthetic.budding_membrane(time, 1.0)
-            r, z, _ = membrane.curve(400)
-            slope_r, slope_z = np.gradient(r), np.gradient(z)
-            length = np.hypot(slope_r, slope_z)
-            group = file.create_group(f"times/{number:06d}")
-            group.attrs["time"] = time
-            base = {"r": r, "z": z, "normal_r": -slope_z / length, "normal_z": slope_r / length}
-            for name, values in {**base, "c": synthetic.concentration(r, z)}.items():
-                group[name] = values
+            group, r, z = write_meridian(file, number, time)
+            group["c"] = synthetic.concentration(r, z)
             for m in ORDERS:
                 w = np.sin(np.pi * np.linspace(0, 1, len(r))) ** m
                 mode = group.create_group(f"mode_{m}")
@@ -57,6 +63,76 @@ def write_tables(directory):
     (directory / "perturbations.csv").write_text("\n".join(followed) + "\n")
 
 
+def write_noise(directory):
+    """What --noise adds: a neck of 10 − 5 t, its spread 1 + t of which half is inherited; all else a constant."""
+    columns = ("height", "neck", "sideways", "ellipticity", "neck_ellipticity")
+    names = ["time_us", "height_nm", "neck_radius_nm"]
+    for name in columns:
+        unit = "" if "ellipticity" in name else "_nm"
+        names += [f"{name}_rms{unit}", f"{name}_inherited{unit}"]
+    rows, modes = [",".join(names)], ["time_us,mode,rms_nm,inherited_nm"]
+    with h5py.File(directory / "noise.h5", "w") as file:
+        for number, time in enumerate(TIMES):
+            spread = 1 + time
+            neck = ["", "", ""] if number == 0 else [10 - 5 * time, spread, spread / 2]
+            rows.append(",".join(map(str, [time, 40, neck[0], 2, 1, *neck[1:], 3, 1, 0.1, 0.05, 0.2, 0.1])))
+            group, r, _ = write_meridian(file, number, time)
+            for m in (0, *ORDERS):
+                modes.append(f"{time},{m},{spread},{spread / 2}")
+                group[f"rms_{m}"], group[f"inherited_{m}"] = spread + 0 * r, spread / 2 + 0 * r
+    (directory / "noise.csv").write_text("\n".join(rows) + "\n")
+    (directory / "noise_modes.csv").write_text("\n".join(modes) + "\n")
+    record = {"temperature_K": 310, "budding_us": BUDDING, "budding_spread_us": 0.36, "linear_until_us": 0.9}
+    (directory / "noise.json").write_text(json.dumps(record))
+
+
+class NoiseDirectory(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.directory = scratch_directory(cls)
+        write_tables(cls.directory)
+        write_noise(cls.directory)
+        cls.process = call("modes", cls.directory)
+
+    def test_reader(self):
+        noise = endoflow.load_modes(self.directory).noise
+        self.assertEqual((noise.temperature, noise.budding, noise.budding_spread), (310, BUDDING, 0.36))
+        self.assertTrue(np.isnan(noise.table["neck_rms_nm"][0]))
+        np.testing.assert_allclose(noise.table["neck_rms_nm"][1:], 1 + np.array(TIMES[1:]))
+        np.testing.assert_allclose(noise.modes[3]["inherited_nm"], (1 + np.array(TIMES)) / 2)
+        # Four modes of the same variance.
+        np.testing.assert_allclose(noise.meridians[1].total, 2 * (1 + TIMES[1]))
+
+    def test_page(self):
+        self.assertEqual((self.process.returncode, self.process.stderr), (0, ""))
+        for name in ("noise_histories", "noise_spreads", "noise_shapes"):
+            self.assertGreater((self.directory / f"{name}.svg").stat().st_size, 5000)
+        page = (self.directory / "report.html").read_text("utf-8")
+        self.assertIn("Spread of the budding time", page)
+        self.assertIn("Linear noise ends", page)
+
+    @unittest.skipUnless(chromium(), "chromium is not installed (Debian package chromium)")
+    def test_one_standard_deviation_in_space(self):
+        with Browser() as browser:
+            browser.open(self.directory / "report.html", READY)
+            browser.evaluate("document.getElementById('turn').click()")
+            before = browser.evaluate("document.getElementById('view').toDataURL()")
+            browser.evaluate("document.querySelector('input[value=noise]').click()")
+            self.assertNotEqual(browser.evaluate("document.getElementById('view').toDataURL()"), before)
+            text = browser.evaluate("document.getElementById('says').textContent")
+            self.assertIn("thermal noise is 1.8 nm at most", text)  # at budding
+            self.assertEqual(browser.problems, [])
+
+    def test_a_broken_table(self):
+        directory = scratch_directory(self)
+        write_tables(directory)
+        write_noise(directory)
+        (directory / "noise.csv").write_text("time_us\nnever\n")
+        process = call("modes", directory)
+        self.assertEqual(process.returncode, 4)
+        self.assertIn("holds no modes", process.stderr)
+
+
 class ModesDirectory(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -68,6 +144,7 @@ class ModesDirectory(unittest.TestCase):
 
     def test_reader(self):
         modes = endoflow.load_modes(self.directory)
+        self.assertIsNone(modes.noise)
         self.assertEqual(modes.modes, list(ORDERS))
         self.assertEqual(modes.initial_shapes, list(INITIAL))
         self.assertEqual((modes.budding, modes.last_index), (BUDDING, 2))

@@ -114,6 +114,46 @@ class Statics(CommandLineTest):
         self.assertIn("the membrane reaches the bottom of the box", result.stdout)
         self.assertLess(float(self.rows()[-1]["bud_height_nm"]), -100)
 
+    def test_a_held_neck(self):
+        """The force is the potential's derivative, also between the rows."""
+        result = endoflow("statics", self.case, "-o", self.output, "--set", "molecules.transport=advection",
+                          "--set", "membrane.gaussian_stiffness=-100", "--hold", "neck_radius=12:10")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("barrier_kT", result.stdout)
+        rows = self.rows()
+        radii, force, work, potential = (
+            np.array([float(row[name]) for row in rows])
+            for name in ("followed_value", "neck_force_pN", "neck_work_pN_nm", "potential_pN_nm")
+        )
+        self.assertEqual((radii[0], radii[-1]), (12, 10))
+        for row, radius in zip(rows, radii):
+            self.assertAlmostEqual(float(row["neck_radius_nm"]), radius, delta=1e-6)  # of a spline through 1001 points
+        self.assertLess(np.abs(work - (potential - potential[0])).max(), 1e-4)  # the work is of fourth order in the steps
+        self.assertTrue((force < 0).all())
+        notes = json.loads((self.output / "run.json").read_text())["notes"]
+        self.assertEqual((notes["branch"]["parameter"], notes["branch"]["end"]), ("neck_radius", 10))
+        self.assertAlmostEqual(notes["held_neck"]["barrier_kT"] * 4.11, potential[-1] - potential[0], delta=1e-4)
+        self.assertAlmostEqual(notes["held_neck"]["scission_energy_pN_nm"], -400 * np.pi, delta=1e-9)
+        self.assertEqual(endoflow("summary", self.output).returncode, 0)
+
+    def test_a_neck_too_wide_to_be_held(self):
+        result = endoflow("statics", self.case, "-o", self.output, "--set", "molecules.transport=advection",
+                          "--hold", "neck_radius=10:20")
+        self.assert_refused(result, 3, "held-neck-opens", "a neck of 20 nm is not reached")
+        self.assertGreater(len(self.rows()), 5)  # what was found stays
+
+    def test_bad_holds_write_nothing(self):
+        for hold, words in (("nonsense", "it must be neck_radius=R1:R2"), ("neck_radius=8", "neck_radius=R1:R2"),
+                            ("neck_radius=8:0.5", "'0.5' must be a radius between 1 nm"),
+                            ("neck_radius=nan:3", "'nan' must be a radius"), ("neck_radius=90:3", "domain.radius = 80 nm"),
+                            ("neck_radius=8:8", "must differ"), ("neck_radius=8:open", "'open' must be a radius")):
+            with self.subTest(hold):
+                self.assert_refused(endoflow("statics", self.case, "-o", self.output, "--hold", hold), 2, words)
+                self.assertFalse(self.output.exists())
+        result = endoflow("statics", self.case, "-o", self.output, "--hold", "neck_radius=8:3",
+                          "--continue-in", "molecules.patch_radius=20")
+        self.assert_refused(result, 2, "exclude each other")
+
     def test_elements(self):
         """A state's relative_error is what twice the elements change."""
         errors = {}
@@ -201,6 +241,7 @@ class Statics(CommandLineTest):
                                 (("--set", "domain.spheroid_polar_axis=40"), "sphere"),
                                 (("--family", "pear"), "prolate, oblate or stomatocyte"),
                                 (("--disc-mass",), "--disc-mass"),
+                                (("--hold", "neck_radius=8:3"), "--hold does not go with a vesicle"),
                                 (("--continue-in", "molecules.patch_radius=30"), "can be continued in")):
             with self.subTest(arguments):
                 self.assert_refused(self.vesicle(*arguments), 2, word)

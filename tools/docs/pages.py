@@ -12,7 +12,7 @@ GROUPS = {
         "index", "install", "first-run", "case-files", "parameters-biology", "outputs", "studies", "inference", "paper", "paraview", "python", "web",
     ),
     "Methods": (
-        "model", "boundary-integral", "phase-field", "phase-field-paper", "statics", "modes", "verification", "decisions/index",
+        "model", "boundary-integral", "phase-field", "phase-field-paper", "statics", "modes", "noise", "verification", "decisions/index",
     ),
     "Results": (
         "results/standard-case", "results/sharp-refinement", "results/smooth-case", "results/patch-radii", "results/vesicles", "results/scheme-paper",

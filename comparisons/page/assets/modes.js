@@ -21,7 +21,8 @@ function say() {
   document.getElementById("clock").textContent = `${frame.time.toFixed(3)} µs`;
   document.getElementById("amount-text").textContent = `${amount.value} nm`;
   document.getElementById("says").textContent =
-    `m = ${mode}: grows at ${signed(frame.rates[chosen])}/µs; the worst displacement of 0.1 nm at the start is ${frame.peaks[chosen]} nm now.`;
+    `m = ${mode}: grows at ${signed(frame.rates[chosen])}/µs; the worst displacement of 0.1 nm at the start is ${frame.peaks[chosen]} nm now.`
+    + (frame.noise ? ` One standard deviation of its thermal noise is ${frame.sigmas[chosen]} nm at most.` : "");
   draw();
 }
 
@@ -46,6 +47,7 @@ report.modes.forEach((mode, index) => {
   label.firstChild.addEventListener("change", () => { chosen = index; say(); });
   document.getElementById("modes").append(label);
 });
+document.getElementById("noise-kind").hidden = !report.frames[0].noise;
 time.max = String(report.frames.length - 1);
 time.value = String(report.start);
 for (const input of [time, amount, ...document.querySelectorAll("input[name=kind]")]) input.addEventListener("input", say);
