@@ -69,7 +69,7 @@ Json write_state(StateWriter& writer, const Parameters& named, const Parameters&
     const ShapeIntegrals integrals = shape_integrals(solved, point.solution, rule);
     const Loads loads = loads_of(solved);
     const ShapeRecord record{named, curve, point, integrals, loads, place};
-    Json figures = writer.write(curve, BendingModel(solved.membrane), own_values(own_shape_columns(), record));
+    Json figures = writer.write(curve, bending_model(solved, 0), own_values(own_shape_columns(), record));
     figures["apex_height_nm"] = record.apex_height();
     figures["tension_at_axis_pN_per_nm"] = curve.lambda.front();
     const bool coupled = energetically_coupled(solved.molecules);

@@ -50,7 +50,7 @@ Json write_vesicle(StateWriter& writer, const Parameters& parameters, const Vesi
     const MembraneCurve curve =
         sampled_curve(state, GaussRule(Resolution{}.points), parameters.domain.membrane_height, curve_points);
     const VesicleRecord record{state, curve, place, followed};
-    Json figures = writer.write(curve, BendingModel(parameters.membrane), own_values(own_vesicle_columns(), record));
+    Json figures = writer.write(curve, bending_model(parameters, 0), own_values(own_vesicle_columns(), record));
     figures["reduced_volume"] = state.membrane.reduced_volume();
     figures["reduced_energy"] = record.reduced_energy();
     figures["pressure_pN_per_nm2"] = state.pressure();

@@ -25,7 +25,7 @@ void EventRecorder::record(const NeckEvent& event, const StiffIntegrator& integr
                            OutputSeries& series) {
     series.write_shape_at(event.time, integrator);
     const Eigen::VectorXd y = integrator.state_at(event.time);
-    if (event.time > history.last_row()) history.record(event.time, dynamics_.evaluate(y), integrator);
+    if (event.time > history.last_row()) history.record(event.time, dynamics_.evaluate(event.time, y), integrator);
     output_.record_event(event.name, event.time, measure_shape(dynamics_.space(), dynamics_.unpack(y), domain_));
 }
 

@@ -40,7 +40,7 @@ constexpr double unresolved = 2.0;
 void check_stiffness(const Evaluation& evaluation, const MembraneDynamics& dynamics, const Parameters& parameters,
                      double time) {
     for (const double c : evaluation.samples.c) {
-        if (dynamics.model().stiffness(c).value > 0.0) continue;
+        if (dynamics.model(time).stiffness(c).value > 0.0) continue;
         if (estimate_resolution(dynamics.space(), evaluation.state).concentration > unresolved)
             throw SolverError("unresolved-coat-edge",
                               fmt::format("c = {:.6f} at t = {:.6f} µs, where the bending stiffness is no longer "
@@ -89,6 +89,9 @@ const std::vector<OwnColumn<StepBalances>>& own_history_columns() {
          [](const B& b) { return b.exchanged; }},
         {"molecule_balance_relative", "|∫ c dA − its first value − ∫∫ j dA dt| over the first value",
          [](const B& b) { return b.molecule_balance; }},
+        {"maturity", "χ, the part of its curvature that the coat has", [](const B& b) { return b.maturity; }},
+        {"maturation_power_pN_nm_per_us", "∂E/∂χ dχ/dt, what the coat's maturation adds to E",
+         [](const B& b) { return b.energy.maturation_power; }},
         {"resolution_error_relative", "estimate of the error of neck radius and budding time: elements and time steps",
          [](const B& b) { return b.resolution_error; }},
     };
@@ -133,7 +136,8 @@ void HistoryRecorder::record(double time, const Evaluation& evaluation, const St
     strain_.advance(strain_rates_, strain_rates, row.step_us);
     strain_rates_ = std::move(strain_rates);
     row.area_strain_max = strain_.largest();
-    molecules_.advance(last_row_, time, [&](double t) { return dynamics_.exchanged_per_time(integrator.state_at(t)); });
+    molecules_.advance(last_row_, time,
+                       [&](double t) { return dynamics_.exchanged_per_time(t, integrator.state_at(t)); });
     const EnergyBalance energy = energy_balance(dynamics_, evaluation);
     largest_power_ = std::max(largest_power_, energy.moduli());
     const double power_floor = rest_floor(0.0, largest_power_, rest_.power);
@@ -143,7 +147,7 @@ void HistoryRecorder::record(double time, const Evaluation& evaluation, const St
                    {energy, power_floor, balances(dynamics_, evaluation, rest_), evaluation.flow.inflow,
                     walls ? std::optional(walls->smallest()) : std::nullopt, integrator.last_order(), line_energy,
                     molecules_.exchanged(), molecules_.residual(row.membrane.molecule_mass, rest_.area),
-                    resolution_error(evaluation.state)});
+                    dynamics_.maturation().maturity(time), resolution_error(evaluation.state)});
     output_.record_step(row);
     last_row_ = time;
 }

@@ -23,6 +23,7 @@ struct StepBalances {
     int order;                            // of the integrator
     double line_energy;                   // E_c, pN nm
     double exchanged, molecule_balance;
+    double maturity;          // χ
     double resolution_error;  // estimated, of neck radius and budding time, relative
 };
 

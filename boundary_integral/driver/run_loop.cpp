@@ -135,7 +135,7 @@ class RunLoop {
             if (output_.stop_requested()) return ExitReason::interrupted;
             if (output_.checkpoint_due()) output_.write_checkpoint(resume_);
             advance();
-            const Evaluation accepted = dynamics_.evaluate(integrator_.state(), operators_);
+            const Evaluation accepted = dynamics_.evaluate(integrator_.time(), integrator_.state(), operators_);
             flow_.add(integrator_.time(), accepted);
             if (const auto reason = events_.look(integrator_, history_, series_)) return *reason;
             series_.write_until(integrator_.time(), integrator_);
@@ -187,14 +187,14 @@ class RunLoop {
 
     void begin() {
         make_operators(start_.y);
-        const Evaluation initial = dynamics_.evaluate(start_.y, operators_);
+        const Evaluation initial = dynamics_.evaluate(start_.time, start_.y, operators_);
         history_.start(initial);
         series_.write_initial(initial);
     }
 
     void begin_section() {
         make_operators(start_.y);
-        flow_.start(start_.time, dynamics_.evaluate(start_.y, operators_));
+        flow_.start(start_.time, dynamics_.evaluate(start_.time, start_.y, operators_));
         resume_ = make_checkpoint();
     }
 
@@ -231,10 +231,10 @@ class RunLoop {
             give_up_if_asked();
             make_operators(predicted);
         };
-        problem.rate = [this](const Eigen::VectorXd& y) {
+        problem.rate = [this](double time, const Eigen::VectorXd& y) {
             give_up_if_asked();
             const PhaseTimer timer(output_, "rates");
-            latest_ = dynamics_.evaluate(y, operators_);
+            latest_ = dynamics_.evaluate(time, y, operators_);
             return latest_.rate;
         };
         problem.jacobian = [this] {

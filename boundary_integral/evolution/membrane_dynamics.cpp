@@ -57,9 +57,7 @@ MembraneDynamics::MembraneDynamics(const Parameters& parameters)
     : parameters_(parameters),
       space_(parameters.boundary_integral.elements, parameters.boundary_integral.quadrature_order,
              parameters.domain.kind == DomainKind::box ? CurveEnd::clamped : CurveEnd::closed),
-      model_(parameters.membrane),
-      energy_(membrane_energy(parameters)),
-      bending_(bending_energy(parameters)),
+      maturation_(parameters.molecules),
       loads_(loads_of(parameters)),
       transport_(transport_law(parameters.molecules)),
       exchange_(exchange_law(parameters.molecules)),
@@ -143,13 +141,15 @@ std::shared_ptr<const MobilityOperators> MembraneDynamics::operators(const Eigen
     return std::make_shared<const MobilityOperators>(flow_->operators(state, sample(space_, state)));
 }
 
-Evaluation MembraneDynamics::evaluate(const Eigen::VectorXd& y,
+Evaluation MembraneDynamics::evaluate(double time, const Eigen::VectorXd& y,
                                       std::shared_ptr<const MobilityOperators> operators) const {
     const MembraneState state = unpack(y);
     const MembraneSamples samples = sample(space_, state);
-    Evaluation e{state,
+    const MembraneEnergy energy = membrane_energy(parameters_, time);
+    Evaluation e{time,
+                 state,
                  samples,
-                 energy_derivatives(space_, state, energy_, Derivatives::first),
+                 energy_derivatives(space_, state, energy, Derivatives::first),
                  std::move(operators),
                  {},
                  {},
@@ -158,7 +158,7 @@ Evaluation MembraneDynamics::evaluate(const Eigen::VectorXd& y,
                  {},
                  {}};
     const double rim_energy_density =
-        space_.end() == CurveEnd::clamped ? energy_density_at_rim(space_, state, energy_) : 0.0;
+        space_.end() == CurveEnd::clamped ? energy_density_at_rim(space_, state, energy) : 0.0;
     const Eigen::VectorXd external = loads_.none() ? Eigen::VectorXd() : external_load(space_, samples, loads_);
     e.flow = flow_->solve(*e.operators, e.samples, e.energy, rim_energy_density, external);
     const Eigen::VectorXd tangential = mesh_.tangential_velocity(state, samples, e.flow.velocity, e.flow.inflow);
@@ -172,7 +172,7 @@ Evaluation MembraneDynamics::evaluate(const Eigen::VectorXd& y,
             -(space_.radial_rows[i].evaluate(t_r) * p.r1 + space_.axial_rows[i].evaluate(t_z) * p.z1) / p.g;
     }
     e.diffusion = diffusion_rate(space_, samples, state.c, transport_, e.energy);
-    e.exchange = exchange_rate(space_, samples, exchange_, bending_);
+    e.exchange = exchange_rate(space_, samples, exchange_, bending_energy(parameters_, time));
     Eigen::VectorXd moments = e.diffusion + advection_rate(space_, samples, e.relative_velocity);
     if (!exchange_.none()) moments += e.exchange;
     e.rate = pack(e.mesh_velocity, moments);
@@ -180,15 +180,30 @@ Evaluation MembraneDynamics::evaluate(const Eigen::VectorXd& y,
 }
 
 double MembraneDynamics::line_energy(const MembraneState& state) const {
-    const double both = energy_derivatives(space_, state, energy_, Derivatives::first).energy;
-    const double bending = energy_derivatives(space_, state, bending_, Derivatives::first).energy;
-    return 2.0 * std::numbers::pi * (both - bending);
+    const MembraneEnergy edge = endoflow::line_energy(parameters_);
+    return 2.0 * std::numbers::pi * energy_derivatives(space_, state, edge, Derivatives::first).energy;
 }
 
-double MembraneDynamics::exchanged_per_time(const Eigen::VectorXd& y) const {
+double MembraneDynamics::exchanged_per_time(double time, const Eigen::VectorXd& y) const {
     if (exchange_.none()) return 0.0;
     const MembraneState state = unpack(y);
-    return 2.0 * std::numbers::pi * exchange_rate(space_, sample(space_, state), exchange_, bending_).sum();
+    const MembraneEnergy bending = bending_energy(parameters_, time);
+    return 2.0 * std::numbers::pi * exchange_rate(space_, sample(space_, state), exchange_, bending).sum();
+}
+
+// With e = ½ β (κ − χC)² the derivative by χ is −C ∂e/∂κ.
+double MembraneDynamics::maturation_power(const Evaluation& e) const {
+    if (maturation_.none()) return 0.0;
+    const MembraneEnergy bending = bending_energy(parameters_, e.time);
+    const BendingModel matured(parameters_.membrane);
+    double by_maturity = 0.0;
+    for (std::size_t i = 0; i < e.samples.curve.size(); ++i) {
+        const CurvePoint& p = e.samples.curve[i];
+        const double c = e.samples.c[i];
+        const double by_curvature = bending.density(p.total_curvature(), c, 0.0).partial[local::curvature];
+        by_maturity -= space_.weight[i] * p.r * p.g * matured.spontaneous_curvature(c).value * by_curvature;
+    }
+    return 2.0 * std::numbers::pi * by_maturity * maturation_.rate(e.time);
 }
 
 Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
@@ -197,7 +212,8 @@ Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
     const VelocityFreedoms& freedoms = e.operators->freedoms;
     Multipliers multipliers = e.flow.multipliers;
     multipliers.pressure -= loads_.pressure;
-    const EnergyDerivatives second = energy_derivatives(space_, e.state, energy_, Derivatives::second, multipliers);
+    const EnergyDerivatives second =
+        energy_derivatives(space_, e.state, membrane_energy(parameters_, e.time), Derivatives::second, multipliers);
 
     // Velocity freedoms: δu = Y δload with B δu = - δB u.
     Eigen::MatrixXd load_curve = -freedoms.restrict_rows(pack_columns(second.hessian));
@@ -232,7 +248,8 @@ Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
     TransportDerivatives transport =
         transport_derivatives(space_, e.samples, e.state.c, transport_, second, e.relative_velocity);
     if (!exchange_.none()) {
-        const ExchangeDerivatives exchange = exchange_derivatives(space_, e.samples, exchange_, bending_);
+        const MembraneEnergy bending = bending_energy(parameters_, e.time);
+        const ExchangeDerivatives exchange = exchange_derivatives(space_, e.samples, exchange_, bending);
         transport.rate_from_c += exchange.from_c;
         transport.rate_from_curve += exchange.from_curve;
     }

@@ -1,7 +1,7 @@
 #pragma once
 
-// The membrane in the box as a system of ordinary differential equations y' = F(y), with the Jacobian an implicit
-// integrator needs.
+// The membrane in the box as a system of ordinary differential equations y' = F(t, y), with the Jacobian an implicit
+// integrator needs. Time enters by the coat's maturity alone.
 
 #include <Eigen/Core>
 #include <memory>
@@ -14,12 +14,14 @@
 #include "boundary_integral/transport/surface_exchange.h"
 #include "boundary_integral/transport/surface_transport.h"
 #include "shared/model/bending_model.h"
+#include "shared/model/maturation.h"
 #include "shared/parameters/parameters.h"
 
 namespace endoflow::boundary_integral {
 
 /// Everything that is computed on the way from a state vector to its rate of change.
 struct Evaluation {
+    double time;  // µs
     MembraneState state;
     MembraneSamples samples;
     EnergyDerivatives energy;
@@ -28,7 +30,7 @@ struct Evaluation {
     std::vector<double> relative_velocity;  // of the material against the mesh, tangential, at the Gauss points, nm/µs
     Eigen::VectorXd mesh_velocity;          // curve_count, nm/µs
     Eigen::VectorXd diffusion, exchange;    // rates of the moments by either
-    Eigen::VectorXd rate;                   // F(y)
+    Eigen::VectorXd rate;                   // F(t, y)
 };
 
 /// y = (r coefficients, z coefficients, moments of c). The rim's radius, its height and its slope do not move: their
@@ -41,7 +43,8 @@ class MembraneDynamics {
     [[nodiscard]] const FlowModel& flow_model() const { return *flow_; }
     /// nullptr without walls.
     [[nodiscard]] const BoxFlow* box() const { return dynamic_cast<const BoxFlow*>(flow_.get()); }
-    [[nodiscard]] const BendingModel& model() const { return model_; }
+    [[nodiscard]] BendingModel model(double time) const { return bending_model(parameters_, time); }
+    [[nodiscard]] const MaturationLaw& maturation() const { return maturation_; }
     [[nodiscard]] const TransportLaw& transport() const { return transport_; }
     [[nodiscard]] Index size() const { return free_radial() + free_axial() + space_.axial_count(); }
 
@@ -50,19 +53,24 @@ class MembraneDynamics {
 
     [[nodiscard]] MembraneState unpack(const Eigen::VectorXd& y) const;
     [[nodiscard]] Eigen::VectorXd packed(const MembraneState& state) const;
-    [[nodiscard]] Evaluation evaluate(const Eigen::VectorXd& y) const { return evaluate(y, operators(y)); }
+    [[nodiscard]] Evaluation evaluate(double time, const Eigen::VectorXd& y) const {
+        return evaluate(time, y, operators(y));
+    }
 
     /// The hydrodynamic operators cost far more than the rest and depend smoothly on the shape: they may be taken from
     /// a shape that is known to be close.
     [[nodiscard]] std::shared_ptr<const MobilityOperators> operators(const Eigen::VectorXd& y) const;
-    [[nodiscard]] Evaluation evaluate(const Eigen::VectorXd& y,
+    [[nodiscard]] Evaluation evaluate(double time, const Eigen::VectorXd& y,
                                       std::shared_ptr<const MobilityOperators> operators) const;
 
     /// E_c of the coat's edge, pN nm.
     [[nodiscard]] double line_energy(const MembraneState& state) const;
 
     /// Molecules that come onto the membrane, nm² of coat per µs.
-    [[nodiscard]] double exchanged_per_time(const Eigen::VectorXd& y) const;
+    [[nodiscard]] double exchanged_per_time(double time, const Eigen::VectorXd& y) const;
+
+    /// The power of maturation ∂E/∂χ dχ/dt, pN nm/µs.
+    [[nodiscard]] double maturation_power(const Evaluation& evaluation) const;
 
     /// dF/dy at fixed operators, exact.
     [[nodiscard]] Eigen::MatrixXd jacobian(const Evaluation& evaluation) const;
@@ -73,8 +81,7 @@ class MembraneDynamics {
   private:
     Parameters parameters_;
     MembraneSpace space_;
-    BendingModel model_;
-    MembraneEnergy energy_, bending_;  // E + E_c, E alone
+    MaturationLaw maturation_;
     Loads loads_;
     TransportLaw transport_;
     ExchangeLaw exchange_;

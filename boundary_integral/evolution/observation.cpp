@@ -90,11 +90,12 @@ WallDistance wall_distance(const MembraneSpace& space, const MembraneSamples& sa
 }
 
 double EnergyBalance::moduli() const {
-    return std::abs(dissipated_power) + molecular_dissipation + std::abs(exchange_power);
+    return std::abs(dissipated_power) + molecular_dissipation + std::abs(exchange_power) + std::abs(maturation_power);
 }
 
 double EnergyBalance::residual(double floor) const {
-    return std::abs(energy_rate + dissipated_power - diffusive_power - external_power) / std::max(moduli(), floor);
+    return std::abs(energy_rate + dissipated_power - diffusive_power - external_power - maturation_power) /
+           std::max(moduli(), floor);
 }
 
 Eigen::VectorXd moments_of_concentration_rate(const MembraneDynamics& dynamics, const Evaluation& e) {
@@ -129,7 +130,9 @@ EnergyBalance energy_balance(const MembraneDynamics& dynamics, const Evaluation&
     const LuFactors mass(surface_mass_matrix(space, e.samples.curve), "concentration mass");
     const Eigen::VectorXd c_rate = mass.solve(moments_of_concentration_rate(dynamics, e));
     const Eigen::VectorXd c_carried = mass.solve(advected);
-    balance.energy_rate = two_pi * (e.energy.gradient.dot(e.mesh_velocity) + e.energy.gradient_c.dot(c_rate));
+    balance.maturation_power = dynamics.maturation_power(e);
+    balance.energy_rate =
+        two_pi * (e.energy.gradient.dot(e.mesh_velocity) + e.energy.gradient_c.dot(c_rate)) + balance.maturation_power;
     balance.diffusive_power = two_pi * e.energy.gradient_c.dot(c_rate - c_carried);
     balance.dissipated_power = e.flow.power;
     balance.external_power = e.flow.external_power;

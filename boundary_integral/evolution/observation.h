@@ -39,6 +39,7 @@ struct EnergyBalance {
     double external_power;         // of the loads, pN nm/µs
     double molecular_dissipation;  // ∫ M |∇μ|² of energetic coupling, pN nm/µs
     double exchange_power;         // dE/dt by molecules that come and go, pN nm/µs
+    double maturation_power;       // ∂E/∂χ dχ/dt, pN nm/µs
     /// Of the powers that only a motion, or exchange, has.
     [[nodiscard]] double moduli() const;
     /// What the powers do not account for, relative to their moduli, or to `floor` where that is larger.

@@ -79,7 +79,7 @@ int StiffIntegrator::rate(double time, N_Vector y, N_Vector rate) {
             begun_ = time;
         }
         ++statistics_.rates;
-        values_of(rate) = problem_.rate(rated_);
+        values_of(rate) = problem_.rate(time, rated_);
         if (!values_of(rate).allFinite())
             throw SolverError("not-finite", "the rate of change is not finite", "report this case");
     });

@@ -70,7 +70,7 @@ void AlongRun::for_modes(int first_mode, const std::function<void(int mode, std:
 }
 
 Moment AlongRun::moment(double time, int first_mode) const {
-    Moment result{time, first_mode, dynamics_.evaluate(trajectory_.state(time)), nullptr, {}};
+    Moment result{time, first_mode, dynamics_.evaluate(time, trajectory_.state(time)), nullptr, {}};
     result.membrane =
         std::make_unique<LinearisedMembrane>(parameters_, surroundings_, base_state(dynamics_, result.evaluation));
     result.rates.resize(static_cast<std::size_t>(last_mode() - first_mode) + 1);

@@ -20,8 +20,8 @@ BaseTrajectory::BaseTrajectory(const MembraneDynamics& dynamics, const Parameter
     Evaluation latest;
     StiffProblem problem;
     problem.begin_step = [&](const Eigen::VectorXd& predicted) { operators = dynamics.operators(predicted); };
-    problem.rate = [&](const Eigen::VectorXd& y) {
-        latest = dynamics.evaluate(y, operators);
+    problem.rate = [&](double time, const Eigen::VectorXd& y) {
+        latest = dynamics.evaluate(time, y, operators);
         return latest.rate;
     };
     problem.jacobian = [&] { return dynamics.jacobian(latest); };

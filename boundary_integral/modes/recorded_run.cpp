@@ -7,6 +7,7 @@
 
 #include "boundary_integral/evolution/observation.h"
 #include "shared/case/case_file.h"
+#include "shared/model/maturation.h"
 #include "shared/output/hdf5_file.h"
 #include "shared/output/run_record.h"
 #include "shared/support/error.h"
@@ -36,6 +37,7 @@ std::vector<std::string> as_overrides(const RunRecord& record) {
 void require_modelled(const Parameters& p, const std::string& source) {
     if (p.fluid.dynamics != Dynamics::flow || !p.membrane.inextensible)
         throw InputError(source + ": modes are those of an inextensible membrane in fluid");
+    require_no_maturation(p, "modes of a run");
     if (p.membrane.pole_force != 0)
         throw InputError(source +
                          ": modes of a membrane under membrane.pole_force are not modelled: the force rides on the "

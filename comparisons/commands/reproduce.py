@@ -2,7 +2,7 @@
 
 ITEM is table2, fig3, fig4, fig5, fig6, fig7, figA2; mobility, attribution, timescale or inertia, which ask why ours differ;
 all; or of other papers hassinger2017, derenyi2002, juelicher1996, and collar, what scission has to do, which are branches
-of stationary shapes and need seconds, or for collar minutes.
+of stationary shapes and need seconds, or for collar minutes; and mund2023, three runs of the sharp engine, a minute.
 The runs lie in DIR/runs and are shared by the items; each item writes DIR/ITEM with report.html, plots (PNG, SVG) and
 ITEM.csv; DIR/index.html lists them, DIR/runs.csv the runs with state, CPU time and an estimate of what is left. Exit codes:
 0 done, also when an engine refused a run: its item's page says so; 2 bad command line or parameter; 3 nothing ran; 4 input or

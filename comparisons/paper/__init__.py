@@ -15,8 +15,8 @@ QUESTIONS = ("mobility", "attribution", "timescale", "inertia")
 #: What `endoflow reproduce all` makes.
 NAMES = PRINTED + QUESTIONS
 
-#: Items of other papers and questions, branches of stationary shapes, which `all` leaves out.
-OTHER_NAMES = ("hassinger2017", "derenyi2002", "juelicher1996", "collar")
+#: Items of other papers and questions, which `all` leaves out: branches of stationary shapes, and mund2023, runs.
+OTHER_NAMES = ("hassinger2017", "derenyi2002", "juelicher1996", "collar", "mund2023")
 
 
 def item_module(item):

@@ -18,8 +18,9 @@ const std::vector<OwnColumn<StepRecord>>& own_history_columns() {
          "of bending; under energetic coupling ∫ μ (∂_t c + u·∇c)",
          [](const R& r) { return r.diagnostics.transport_power; }},
         {"energy_law_residual_pN_nm_per_us",
-         "d(E + E_c)/dt plus the dissipation and the tension's power minus those of transport and loads, by the "
-         "trapezoidal rule; under energetic coupling the molecules' dissipation and exchange power stand for transport",
+         "d(E + E_c)/dt plus the dissipation and the tension's power minus those of transport, loads and maturation, "
+         "by the trapezoidal rule; under energetic coupling the molecules' dissipation and exchange power stand for "
+         "transport",
          [](const R& r) { return r.energy_law_residual; }},
         {"thickness_error_max",
          "largest relative error of the layer's thickness along the membrane, |√2 ε|∇φ|/(1 − φ²) − 1| on "
@@ -47,6 +48,9 @@ const std::vector<OwnColumn<StepRecord>>& own_history_columns() {
          [](const R& r) { return r.diagnostics.molecule_dissipation; }},
         {"exchange_power_pN_nm_per_us", "E + E_c that molecules bring when they come and take when they leave",
          [](const R& r) { return r.diagnostics.exchange_power; }},
+        {"maturity", "χ, the part of its curvature that the coat has", [](const R& r) { return r.maturity; }},
+        {"maturation_power_pN_nm_per_us", "∂E/∂χ dχ/dt, what the coat's maturation adds to E",
+         [](const R& r) { return r.diagnostics.maturation_power; }},
         {"molecules_exchanged_nm2", "∫∫ j dA dt, coat that has come from outside since t = 0",
          [](const R& r) { return r.molecules.exchanged(); }},
         {"molecule_balance_relative", "|∫ c dA − its first value − ∫∫ j dA dt| over the first value",

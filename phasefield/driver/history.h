@@ -14,6 +14,7 @@ struct StepRecord {
     StepDiagnostics diagnostics;
     LayerIntegrals integrals;
     Observables observables;
+    double maturity;             // χ
     double energy_law_residual;  // d(E + E_c)/dt + dissipation − power of transport and loads [pN nm/µs], (21)
     MoleculeBalance molecules;
     double unknowns, cells;

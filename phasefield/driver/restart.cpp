@@ -58,7 +58,7 @@ void TimeLoop::restart(const Checkpoint& checkpoint) {
     const auto directory = output_.directory() / "checkpoint" / checkpoint.text("mesh");
     require_files(directory, checkpoint.text("mesh_files"));
     contour_ = scheme_->load(directory, checkpoint).contour;
-    observables_ = measure(contour_.curve, model_);
+    observables_ = measure(contour_.curve, model(time_));
     if (events_.budded() && parameters_.output.stop_at_budding) event_end_ = ExitReason::budded;
     if (contour_.components > 1) event_end_ = ExitReason::neck_closed;
 }

@@ -9,6 +9,7 @@
 #include "phasefield/driver/history.h"
 #include "phasefield/fem/interruption.h"
 #include "shared/geometry/axisymmetric_spline.h"
+#include "shared/model/maturation.h"
 #include "shared/model/membrane_energy.h"
 #include "shared/output/phase_timer.h"
 #include "shared/support/error.h"
@@ -32,7 +33,6 @@ TimeLoop::TimeLoop(const Parameters& parameters, RunOutput& output, MPI_Comm com
       output_(output),
       communicator_(communicator),
       scheme_(std::move(scheme)),
-      model_(parameters.membrane),
       plan_(parameters, start_of(output)),
       events_(parameters.output, closed_radius) {
     if (output.restart_point())
@@ -121,21 +121,22 @@ void TimeLoop::follow() {
 
 void TimeLoop::record(double tau, const StepDiagnostics& diagnostics) {
     const PhaseTimer timer(output_, "observables");
-    observables_ = measure(contour_.curve, model_);
+    observables_ = measure(contour_.curve, model(time_));
     if (tau > 0) molecules_.advance(time_, diagnostics.exchange_rate);
     const double molecular = energetically_coupled(parameters_.molecules)
                                  ? diagnostics.exchange_power - diagnostics.molecule_dissipation
                                  : diagnostics.transport_power;
     const double loss = diagnostics.viscous_dissipation + diagnostics.mobility_dissipation + diagnostics.tension_power -
-                        molecular - diagnostics.load_power;
+                        molecular - diagnostics.load_power - diagnostics.maturation_power;
     // (21) over the step, the power by the trapezoidal rule; the first step starts from rest in an instant.
     const double power = last_loss_ != 0 ? 0.5 * (last_loss_ + loss) : loss;
     const double energy = diagnostics.bending_energy + diagnostics.line_energy;
     const double residual = tau > 0 ? (energy - last_energy_) / tau + power : 0;
     last_energy_ = energy;
     last_loss_ = loss;
-    output_.record_step(make_history_row({time_, tau, diagnostics, scheme_->integrate(), observables_, residual,
-                                          molecules_, scheme_->unknowns(), scheme_->cells(), layer_at_neck()}));
+    output_.record_step(make_history_row({time_, tau, diagnostics, scheme_->integrate(), observables_,
+                                          MaturationLaw(parameters_.molecules).maturity(time_), residual, molecules_,
+                                          scheme_->unknowns(), scheme_->cells(), layer_at_neck()}));
 }
 
 double TimeLoop::layer_at_neck() const {
@@ -156,7 +157,7 @@ void TimeLoop::note_solver() const {
 double TimeLoop::neck_radius_at(double time) const {
     if (time >= time_) return contour_.components > 1 ? 0 : neck_radius(observables_.neck);
     const Contour contour = scheme_->contour_at(time);
-    return contour.components > 1 ? 0 : neck_radius(measure(contour.curve, model_).neck);
+    return contour.components > 1 ? 0 : neck_radius(measure(contour.curve, model(time)).neck);
 }
 
 void TimeLoop::watch_neck(double tau) {
@@ -173,7 +174,7 @@ void TimeLoop::watch_neck(double tau) {
 }
 
 void TimeLoop::record(const NeckEvent& event) {
-    output_.record_event(event.name, event.time, measure(curve_at(event.time), model_));
+    output_.record_event(event.name, event.time, measure(curve_at(event.time), model(event.time)));
     plan_.shape_at(event.time, [this](double time) { write_shape(time); });
 }
 

@@ -6,6 +6,7 @@
 #include "phasefield/driver/molecule_balance.h"
 #include "phasefield/schemes/interface/scheme.h"
 #include "shared/geometry/observables.h"
+#include "shared/model/bending_model.h"
 #include "shared/output/neck_events.h"
 #include "shared/output/output_plan.h"
 #include "shared/output/run_output.h"
@@ -44,6 +45,8 @@ class TimeLoop {
     void write_shape(double time);
     void write_fields(double time);
     void checkpoint();
+    /// Of the coat at a time.
+    [[nodiscard]] BendingModel model(double time) const { return bending_model(parameters_, time); }
     [[nodiscard]] bool anywhere(bool here) const;
     [[nodiscard]] std::optional<ExitReason> reason_to_stop();
 
@@ -51,7 +54,6 @@ class TimeLoop {
     RunOutput& output_;
     MPI_Comm communicator_;
     std::unique_ptr<Scheme> scheme_;
-    BendingModel model_;
     Contour contour_;
     Observables observables_{};
     double time_ = 0, last_energy_ = 0, last_loss_ = 0;  // E + E_c and what it loses per time

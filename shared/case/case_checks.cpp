@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 #include "shared/model/bending_model.h"
@@ -153,11 +154,28 @@ void check_exchange(const Parameters& p, const Require& require) {
     require(m.pool_area == 0 || m.pool_area > initial_coat(m),
             fmt::format("molecules.pool_area = {:g} nm^2 must exceed the {:.5g} nm^2 of the initial coat", m.pool_area,
                         initial_coat(m)));
-    const double exponent = detachment_exponent(m, bending_energy(p).density(0, 1, 0).partial[local::concentration]);
+    const double exponent = detachment_exponent(
+        m, bending_energy(p, std::numeric_limits<double>::infinity()).density(0, 1, 0).partial[local::concentration]);
     require(std::abs(exponent) <= largest_exponent,
             fmt::format("molecules.molecule_area = {:g} nm^2: a molecule of the flat coat would free {:.4g} k_B T by "
                         "leaving, more than {:g}; lower it, or curvature_sensing",
                         m.molecule_area, exponent, largest_exponent));
+}
+
+/// A law of maturation and its numbers need each other.
+void check_maturation(const Parameters& p, const Require& require) {
+    const MoleculeParameters& m = p.molecules;
+    if (m.maturation != Maturation::none) {
+        require(m.maturation_rate > 0 || m.maturation_start > 0,
+                "molecules.maturation needs molecules.maturation_rate > 0: a coat that begins flat would stay so");
+        return;
+    }
+    require(m.maturation_rate == 0, fmt::format("molecules.maturation_rate = {:g} needs molecules.maturation = "
+                                                "\"exponential\" or \"cooperative\"",
+                                                m.maturation_rate));
+    require(m.maturation_start == 0, fmt::format("molecules.maturation_start = {:g} needs molecules.maturation = "
+                                                 "\"exponential\" or \"cooperative\"",
+                                                 m.maturation_start));
 }
 
 /// A bulk is the other side of an exchange, and its molecules are counted: their area on the membrane is needed.
@@ -219,6 +237,7 @@ void check_case(const Parameters& p, const std::string& where) {
     check_molecules(p, require);
     check_exchange(p, require);
     check_bulk(p, require);
+    check_maturation(p, require);
     check_resolution(p, require);
     check_times(p, require);
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shared/model/maturation.h"
+
 namespace endoflow {
 
 namespace {
@@ -28,11 +30,11 @@ double clip_concentration(double c) {
     return std::clamp(c, 0.0, 1.0);
 }
 
-BendingModel::BendingModel(const MembraneParameters& membrane)
+BendingModel::BendingModel(const MembraneParameters& membrane, double maturity)
     : law_(membrane.constitutive_law),
       bare_(membrane.bending_stiffness),
       added_(membrane.bending_stiffness_coated - membrane.bending_stiffness),
-      curvature_(membrane.spontaneous_curvature),
+      curvature_(maturity * membrane.spontaneous_curvature),
       stiffness_scale_(membrane.curvature_convention == CurvatureConvention::as_printed ? 0.5 : 1.0),
       curvature_scale_(membrane.curvature_convention == CurvatureConvention::as_printed ? 2.0 : 1.0) {}
 
@@ -49,6 +51,10 @@ ValueAndDerivatives BendingModel::spontaneous_curvature(double c) const {
     if (law_ == ConstitutiveLaw::coarse_grained) h = scaled(h, added_ / (added_ + bare_));
     if (law_ == ConstitutiveLaw::lumped) h = saturating(curvature_ * added_, bare_, added_, c);
     return scaled(h, curvature_scale_);
+}
+
+BendingModel bending_model(const Parameters& parameters, double time) {
+    return BendingModel(parameters.membrane, MaturationLaw(parameters.molecules).maturity(time));
 }
 
 }  // namespace endoflow

@@ -26,7 +26,8 @@ struct ValueAndDerivatives {
 ///   consistent      β = b,   C = H0        (what (1), (2), (A.26) say)
 class BendingModel {
   public:
-    explicit BendingModel(const MembraneParameters& membrane);
+    /// `maturity`: χ, by which C is the smaller (maturation.h).
+    explicit BendingModel(const MembraneParameters& membrane, double maturity = 1);
 
     /// β(c) in pN nm.
     [[nodiscard]] ValueAndDerivatives stiffness(double c) const;
@@ -42,5 +43,8 @@ class BendingModel {
     double stiffness_scale_;  // β/b
     double curvature_scale_;  // C/H0
 };
+
+/// The law of a case at a time [µs].
+[[nodiscard]] BendingModel bending_model(const Parameters& parameters, double time);
 
 }  // namespace endoflow

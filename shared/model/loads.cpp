@@ -1,6 +1,7 @@
 #include "shared/model/loads.h"
 
 #include "shared/model/exchange.h"
+#include "shared/model/maturation.h"
 #include "shared/support/error.h"
 
 namespace endoflow {
@@ -12,6 +13,7 @@ void require_no_loads(const Parameters& parameters, const std::string& engine) {
     if (parameters.molecules.coupling != Coupling::none)
         throw InputError("molecules.coupling must be none: the " + engine + " engine does not have another one");
     require_no_exchange(parameters, engine);
+    require_no_maturation(parameters, engine + " engine");
 }
 
 }  // namespace endoflow

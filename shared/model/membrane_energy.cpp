@@ -15,8 +15,8 @@ bool energetically_coupled(const MoleculeParameters& molecules) {
     return molecules.coupling == Coupling::energetic;
 }
 
-MembraneEnergy bending_energy(const Parameters& parameters) {
-    return MembraneEnergy().add(BendingTerm{BendingModel(parameters.membrane)});
+MembraneEnergy bending_energy(const Parameters& parameters, double time) {
+    return MembraneEnergy().add(BendingTerm{bending_model(parameters, time)});
 }
 
 MembraneEnergy line_energy(const Parameters& parameters) {
@@ -25,8 +25,8 @@ MembraneEnergy line_energy(const Parameters& parameters) {
     return MembraneEnergy().add(LineEnergyTerm{molecules.line_energy, molecules.interface_width});
 }
 
-MembraneEnergy membrane_energy(const Parameters& parameters) {
-    return bending_energy(parameters).add(line_energy(parameters));
+MembraneEnergy membrane_energy(const Parameters& parameters, double time) {
+    return bending_energy(parameters, time).add(line_energy(parameters));
 }
 
 LocalJet MembraneEnergy::density(double curvature, double concentration, double squared_gradient) const {

@@ -57,11 +57,11 @@ class MembraneEnergy {
     std::vector<std::function<LocalJet(const LocalShape<LocalJet>&)>> terms_;
 };
 
-/// The energy of a case, E + E_c: the list of the terms there are.
-[[nodiscard]] MembraneEnergy membrane_energy(const Parameters& parameters);
+/// The energy of a case, E + E_c, at a time [µs]: the list of the terms there are.
+[[nodiscard]] MembraneEnergy membrane_energy(const Parameters& parameters, double time = 0);
 
 /// Its parts alone: E of bending (S), and E_c of the coat's edge, which has no terms without energetic coupling.
-[[nodiscard]] MembraneEnergy bending_energy(const Parameters& parameters);
+[[nodiscard]] MembraneEnergy bending_energy(const Parameters& parameters, double time = 0);
 [[nodiscard]] MembraneEnergy line_energy(const Parameters& parameters);
 
 /// Whether bending and line energy drive the molecules and the line energy the membrane.

@@ -65,9 +65,11 @@ double AccuracyWatch::measured(const AccuracyBound& bound, const HistoryRow& row
             const auto optional = [&](const char* column) {
                 return has_column(column, columns_) ? value_of(column, row, columns_).value_or(0) : 0;
             };
-            const double line = optional("line_energy_pN_nm"), power = optional("load_power_pN_nm_per_us"),
+            const double line = optional("line_energy_pN_nm"),
+                         power = std::abs(optional("load_power_pN_nm_per_us")) +
+                                 std::abs(optional("maturation_power_pN_nm_per_us")),
                          energy = std::max(memory.value("energy_pN_nm", 0.0), row.membrane.bending_energy + line),
-                         work = memory.value("work_pN_nm", 0.0) + std::abs(power) * row.step_us,
+                         work = memory.value("work_pN_nm", 0.0) + power * row.step_us,
                          sum = memory.value("sum", 0.0) + value * row.step_us;
             memory["energy_pN_nm"] = energy;
             memory["work_pN_nm"] = work;

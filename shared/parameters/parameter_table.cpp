@@ -27,6 +27,8 @@ constexpr std::array words<Coupling>{"none", "energetic"};
 template <>
 constexpr std::array words<Exchange>{"none", "reservoir", "edge"};
 template <>
+constexpr std::array words<Maturation>{"none", "exponential", "cooperative"};
+template <>
 constexpr std::array words<Bulk>{"none", "extracellular", "intracellular"};
 template <>
 constexpr std::array words<PhaseFieldScheme>{"paper", "production"};
@@ -220,6 +222,13 @@ std::vector<ParameterRow> molecule_rows() {
             "of the molecules in the bulk at the start; 1 µM = 6.022e-7/nm^3"),
         row("molecules", "bulk_reach", &P::molecules, &S::bulk_reach, "nm", at_least(0, 1e9), "ℓ",
             "how far beyond the walls the bulk has c_∞; 0 = the walls let no molecule through"),
+        row("molecules", "maturation", &P::molecules, &S::maturation, "", any(), "",
+            "how the coat's curvature ages, C = χ(t) C(c): none, χ = 1; exponential, dχ/dt = k (1 - χ); cooperative, "
+            "dχ/dt = k (1 - χ²)"),
+        row("molecules", "maturation_rate", &P::molecules, &S::maturation_rate, "1/µs", at_least(0, 1e6), "k",
+            "maturation: how fast; 1e-6/µs = 1/s"),
+        row("molecules", "maturation_start", &P::molecules, &S::maturation_start, "", at_least(0, 1), "χ₀",
+            "maturation: the part of the curvature that the coat has at the start, and in statics"),
     };
 }
 

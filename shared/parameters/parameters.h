@@ -14,6 +14,7 @@ enum class ConstitutiveLaw { linear, coarse_grained, lumped };
 enum class Transport { cahn_hilliard, fickian, advection };
 enum class Coupling { none, energetic };
 enum class Exchange { none, reservoir, edge };
+enum class Maturation { none, exponential, cooperative };
 enum class Bulk { none, extracellular, intracellular };
 enum class PhaseFieldScheme { paper, production };
 enum class StepRule { guarded, ramp };
@@ -81,6 +82,9 @@ struct MoleculeParameters {
     double bulk_diffusivity = 0;
     double bulk_concentration = 0;
     double bulk_reach = 0;
+    Maturation maturation = Maturation::none;
+    double maturation_rate = 0;
+    double maturation_start = 0;
 };
 
 /// What scheme `paper` alone reads.

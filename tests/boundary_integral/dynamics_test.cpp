@@ -30,7 +30,7 @@ Parameters with_loads(Parameters parameters) {
 // A state some way into the motion, by explicit Euler steps that an unstiff observer would call tiny.
 Eigen::VectorXd moved(const MembraneDynamics& dynamics) {
     Eigen::VectorXd y = dynamics.initial_vector();
-    for (int i = 0; i < 3; ++i) y += 1e-7 * dynamics.evaluate(y).rate;
+    for (int i = 0; i < 3; ++i) y += 1e-7 * dynamics.evaluate(0, y).rate;
     return y;
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("the molecules' mass does not change", "[dynamics]") {
     Parameters parameters = small_case();
     parameters.molecules.transport = law;
     const MembraneDynamics dynamics(parameters);
-    const Evaluation e = dynamics.evaluate(moved(dynamics));
+    const Evaluation e = dynamics.evaluate(0, moved(dynamics));
     const Eigen::VectorXd rate = e.rate.tail(dynamics.space().axial_count());
     // The sum over the moments telescopes; only round-off is left of rates of this size.
     CHECK(std::abs(rate.sum()) < 1e-12 * rate.cwiseAbs().sum());
@@ -66,7 +66,7 @@ TEST_CASE("the molecules' mass does not change", "[dynamics]") {
 TEST_CASE("the energy's rate is minus the dissipated power plus diffusion plus the loads' power", "[dynamics]") {
     const bool loaded = GENERATE(false, true);
     const MembraneDynamics dynamics(loaded ? with_loads(small_case()) : small_case());
-    const EnergyBalance balance = energy_balance(dynamics, dynamics.evaluate(moved(dynamics)));
+    const EnergyBalance balance = energy_balance(dynamics, dynamics.evaluate(0, moved(dynamics)));
     CHECK((balance.external_power != 0) == loaded);
     CHECK(balance.dissipated_power > 0);
     CHECK(balance.energy_rate < 0);
@@ -86,20 +86,20 @@ TEST_CASE("the Jacobian is the derivative of the rate at fixed operators", "[dyn
     const MembraneDynamics dynamics(loaded ? with_loads(parameters) : parameters);
     // Off the initial state, where the mesh is at rest and many terms vanish.
     Eigen::VectorXd y = dynamics.initial_vector();
-    for (int i = 0; i < 3; ++i) y += 1e-5 * dynamics.evaluate(y).rate.normalized();
+    for (int i = 0; i < 3; ++i) y += 1e-5 * dynamics.evaluate(0, y).rate.normalized();
     const auto operators = dynamics.operators(y);
     const Eigen::VectorXd scales = dynamics.error_scales(y, 1, 1);
-    const Eigen::MatrixXd jacobian =
-        scales.cwiseInverse().asDiagonal() * dynamics.jacobian(dynamics.evaluate(y, operators)) * scales.asDiagonal();
+    const Eigen::MatrixXd jacobian = scales.cwiseInverse().asDiagonal() *
+                                     dynamics.jacobian(dynamics.evaluate(0, y, operators)) * scales.asDiagonal();
     Eigen::MatrixXd difference(dynamics.size(), dynamics.size());
     for (Index j = 0; j < dynamics.size(); ++j) {
         const double step = 1e-5 * scales[j];
         Eigen::VectorXd up = y, down = y;
         up[j] += step;
         down[j] -= step;
-        difference.col(j) =
-            (dynamics.evaluate(up, operators).rate - dynamics.evaluate(down, operators).rate).cwiseQuotient(scales) /
-            2e-5;
+        difference.col(j) = (dynamics.evaluate(0, up, operators).rate - dynamics.evaluate(0, down, operators).rate)
+                                .cwiseQuotient(scales) /
+                            2e-5;
     }
     const Index curve = dynamics.size() - dynamics.space().axial_count();
     const Index moments = dynamics.space().axial_count();
@@ -119,7 +119,7 @@ TEST_CASE("without a fluid the energy falls by what normal motion gains", "[dyna
     Parameters parameters = small_case();
     parameters.fluid.dynamics = Dynamics::geometric;
     const MembraneDynamics dynamics(parameters);
-    const Evaluation e = dynamics.evaluate(moved(dynamics));
+    const Evaluation e = dynamics.evaluate(0, moved(dynamics));
     CHECK(e.flow.power > 0);
     // Along the material's motion alone: exact by construction, round-off of a sum of terms ~ 1e3 larger.
     const double rate = 2.0 * pi * e.energy.gradient.dot(e.flow.velocity);
@@ -151,7 +151,7 @@ TEST_CASE("a vesicle in free space keeps area and volume and has no net force", 
     CHECK(shape.extracellular_volume == Approx(4 * pi / 3 * a * a * b).epsilon(1e-7));
     CHECK(shape.membrane_area == Approx(2 * pi * a * (a + b * std::asin(eccentricity) / eccentricity)).epsilon(1e-7));
     CHECK(shape.bud_height == Approx(2 * b).epsilon(1e-9));
-    const Evaluation e = dynamics.evaluate(y);
+    const Evaluation e = dynamics.evaluate(0, y);
     // coated everywhere
     CHECK(molecule_mass(dynamics.space(), e.samples) == Approx(shape.membrane_area).epsilon(1e-12));
     const FlowBalances balances = flow_balances(dynamics.space(), *e.operators, e.samples, e.flow);
@@ -187,7 +187,7 @@ TEST_CASE("the pole force adds up to F and rides on the material", "[dynamics][l
 
 TEST_CASE("the round-off of a membrane at rest is no flux out of balance", "[dynamics][loads]") {
     const MembraneDynamics dynamics(small_case());
-    Evaluation e = dynamics.evaluate(moved(dynamics));
+    Evaluation e = dynamics.evaluate(0, moved(dynamics));
     for (Index i = 0; i < e.flow.velocity.size(); ++i)
         e.flow.velocity[i] = 1e-11 * std::sin(3.0 * static_cast<double>(i));  // solves no equation
     e.flow.force.setZero();

@@ -22,7 +22,7 @@ StiffProblem problem(double tolerance) {
     StiffProblem result;
     const auto at = std::make_shared<Eigen::VectorXd>();
     result.begin_step = [](const Eigen::VectorXd&) {};
-    result.rate = [at](const Eigen::VectorXd& y) -> Eigen::VectorXd {
+    result.rate = [at](double /*time*/, const Eigen::VectorXd& y) -> Eigen::VectorXd {
         *at = y;
         return Eigen::Vector3d(-1000 * (y[0] - std::cos(y[2])) - std::sin(y[2]), -y[1] * y[1], 1.0);
     };
@@ -150,9 +150,9 @@ TEST_CASE("a level is located inside a step", "[integrator]") {
 
 TEST_CASE("a problem that cannot be integrated ends with a name", "[integrator][faults]") {
     StiffProblem p = problem(1e-6);
-    p.rate = [rate = p.rate](const Eigen::VectorXd& y) -> Eigen::VectorXd {
+    p.rate = [rate = p.rate](double time, const Eigen::VectorXd& y) -> Eigen::VectorXd {
         if (y[2] > 0.1) return Eigen::Vector3d::Constant(std::nan(""));
-        return rate(y);
+        return rate(time, y);
     };
     double reached = 0;
     const SolverError failure = failure_of(p, reached);
@@ -163,7 +163,9 @@ TEST_CASE("a problem that cannot be integrated ends with a name", "[integrator][
 
 TEST_CASE("a rate that is missing where the integration starts is named", "[integrator][faults]") {
     StiffProblem p = problem(1e-6);
-    p.rate = [](const Eigen::VectorXd&) -> Eigen::VectorXd { throw SolverError("injected", "no rate", "none"); };
+    p.rate = [](double, const Eigen::VectorXd&) -> Eigen::VectorXd {
+        throw SolverError("injected", "no rate", "none");
+    };
     double reached = 0;
     const SolverError failure = failure_of(p, reached);
     CHECK(failure.name() == "no-rate");
@@ -185,8 +187,8 @@ TEST_CASE("a residual that is not finite costs one rejected step", "[integrator]
     for (const double fault : {std::nan(""), std::numeric_limits<double>::infinity()}) {
         StiffProblem p = problem(1e-6);
         int calls = 0;
-        p.rate = [rate = p.rate, &calls, fault](const Eigen::VectorXd& y) -> Eigen::VectorXd {
-            Eigen::VectorXd value = rate(y);
+        p.rate = [rate = p.rate, &calls, fault](double time, const Eigen::VectorXd& y) -> Eigen::VectorXd {
+            Eigen::VectorXd value = rate(time, y);
             if (++calls == 40) value[1] = fault;
             return value;
         };

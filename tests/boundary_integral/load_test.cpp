@@ -68,7 +68,7 @@ TEST_CASE("every load's power is the rate of the work done on the membrane", "[l
         const Parameters& parameters = loaded.parameters;
         const MembraneDynamics dynamics(parameters);
         const Eigen::VectorXd y = bulged(dynamics);
-        const Evaluation e = dynamics.evaluate(y);
+        const Evaluation e = dynamics.evaluate(0, y);
         const double step = 1e-3 / e.rate.head(dynamics.size() - dynamics.space().axial_count()).cwiseAbs().maxCoeff();
         const auto potential = [&](double time) {
             return potential_of_loads(parameters, dynamics.space(), dynamics.unpack(y + time * e.rate));
@@ -78,10 +78,37 @@ TEST_CASE("every load's power is the rate of the work done on the membrane", "[l
     }
 }
 
+// dE/dt along the computed motion, maturation included, against a difference of energies in time.
+TEST_CASE("the power of maturation is what an older coat's energy is the larger by", "[loads]") {
+    for (const Maturation law : {Maturation::exponential, Maturation::cooperative}) {
+        Parameters parameters = unloaded(48);
+        parameters.molecules.maturation = law;
+        parameters.molecules.maturation_rate = 50;
+        parameters.molecules.maturation_start = 0.2;
+        const MembraneDynamics dynamics(parameters);
+        const Eigen::VectorXd y = bulged(dynamics);
+        constexpr double time = 0.01, step = 1e-5;
+        const auto energy = [&](double at) { return energy_balance(dynamics, dynamics.evaluate(at, y)).energy; };
+        const EnergyBalance balance = energy_balance(dynamics, dynamics.evaluate(time, y));
+        const double rate = (energy(time + step) - energy(time - step)) / (2 * step);
+        CHECK(rate == Approx(balance.maturation_power).epsilon(1e-6));  // (2 50 step)²/6 of it and less: E has χ²
+        CHECK(balance.residual() < 1e-5);                               // as without maturation
+        // The Jacobian is that of the rate at the same time.
+        const Evaluation e = dynamics.evaluate(time, y);
+        const Eigen::VectorXd direction = e.rate.normalized();
+        constexpr double length = 1e-4;
+        const auto rate_at = [&](double part) {
+            return dynamics.evaluate(time, y + part * direction, e.operators).rate;
+        };
+        const Eigen::VectorXd difference = (rate_at(length) - rate_at(-length)) / (2 * length);
+        CHECK((dynamics.jacobian(e) * direction - difference).norm() < 1e-5 * difference.norm());
+    }
+}
+
 TEST_CASE("as loads and exchange vanish the unloaded motion is left", "[loads]") {
     const Parameters none = unloaded(24);
     const MembraneDynamics dynamics(none);
-    const Eigen::VectorXd y = bulged(dynamics), rate = dynamics.evaluate(y).rate;
+    const Eigen::VectorXd y = bulged(dynamics), rate = dynamics.evaluate(0, y).rate;
     std::vector<LoadCase> cases = single_loads(24, 1e-12, 1e-14, 1e-10);  // of some pN/nm, 0.1 pN/nm², 100 pN that move
     LoadCase reservoir{"reservoir", none}, edge{"edge", none};
     reservoir.parameters.molecules.exchange = Exchange::reservoir;
@@ -91,11 +118,11 @@ TEST_CASE("as loads and exchange vanish the unloaded motion is left", "[loads]")
     cases.insert(cases.end(), {reservoir, edge});
     for (const auto& [name, parameters] : cases) {
         CAPTURE(name);
-        const Eigen::VectorXd vanishing = MembraneDynamics(parameters).evaluate(y).rate;
+        const Eigen::VectorXd vanishing = MembraneDynamics(parameters).evaluate(0, y).rate;
         CHECK((vanishing - rate).norm() < 1e-10 * rate.norm());
     }
     // Where a load is 0 nothing reads the rest of its keys.
     Parameters zero = none;
     zero.membrane.pole_force_width = 20;
-    CHECK(MembraneDynamics(zero).evaluate(y).rate == rate);
+    CHECK(MembraneDynamics(zero).evaluate(0, y).rate == rate);
 }

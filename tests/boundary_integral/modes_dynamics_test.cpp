@@ -87,15 +87,15 @@ TEST_CASE("mode 0 of the linearisation is the derivative of the axisymmetric eng
     const MembraneDynamics dynamics(parameters);
     const MembraneSpace& space = dynamics.space();
     const MembraneState state = bulge(space, 25);
-    const Evaluation e = dynamics.evaluate(dynamics.packed(state));
+    const Evaluation e = dynamics.evaluate(0, dynamics.packed(state));
     const Surroundings surroundings(parameters, space, 0);
     const LinearisedMembrane membrane(parameters, surroundings, base_state(dynamics, e));
 
     const AxisymmetricPerturbation by = {[](double x) { return std::pow(1 - x * x, 3) * std::cos(4 * x * x); },
                                          [](double x) { return 0.3 * std::exp(-6 * x * x); }};
     const double step = 1e-4;
-    const Evaluation plus = dynamics.evaluate(perturbed(dynamics, state, by, step));
-    const Evaluation minus = dynamics.evaluate(perturbed(dynamics, state, by, -step));
+    const Evaluation plus = dynamics.evaluate(0, perturbed(dynamics, state, by, step));
+    const Evaluation minus = dynamics.evaluate(0, perturbed(dynamics, state, by, -step));
     // Rates of what the mesh's points do; c' is compared at the same place along the normal.
     const auto c_rate = [&](const Evaluation& at) { return concentration_rate(dynamics, at); };
     const Eigen::VectorXd curve = (plus.mesh_velocity - minus.mesh_velocity) / (2 * step);
@@ -160,7 +160,7 @@ TEST_CASE("the propagator of mode 0 is the difference of two nearby runs", "[mod
     const Surroundings surroundings(parameters, space, 0);
     const ModeSpace& mode = surroundings.space(0);
     const auto rates = [&](double time) {
-        const Evaluation e = dynamics.evaluate(base.state(time));
+        const Evaluation e = dynamics.evaluate(0, base.state(time));
         const LinearisedMembrane membrane(parameters, surroundings, base_state(dynamics, e));
         return std::vector<LinearRate>{mesh_rate(membrane, mode, membrane.rates(0), e.relative_velocity, 1.0)};
     };
@@ -221,7 +221,7 @@ RigidErrors rigid_errors(Motion motion, double inner, double outer, Index elemen
         space, [](double x) { return 18 * std::sin(pi * x) * (1 + 0.05 * std::cos(2 * pi * x)); },
         [](double x) { return 24 * std::cos(pi * x) + std::cos(2 * pi * x); },
         [](double x) { return 0.4 + 0.3 * std::cos(pi * x); });
-    const Evaluation e = dynamics.evaluate(dynamics.packed(state));
+    const Evaluation e = dynamics.evaluate(0, dynamics.packed(state));
     const Surroundings surroundings(parameters, space, 1);
     const LinearisedMembrane membrane(parameters, surroundings, base_state(dynamics, e));
     const ModeSpace& mode = surroundings.space(1);
@@ -279,7 +279,7 @@ SlowestRates of_resting_vesicle(Index elements) {
     const MembraneDynamics dynamics(parameters);
     constexpr double at_rest_from = 150;  // µs; the slowest shape relaxes at 0.28/µs
     const BaseTrajectory relaxation(dynamics, parameters, {dynamics.initial_vector(), at_rest_from, 1e-6});
-    const Evaluation e = dynamics.evaluate(relaxation.state(at_rest_from));
+    const Evaluation e = dynamics.evaluate(0, relaxation.state(at_rest_from));
     REQUIRE(e.flow.velocity.cwiseAbs().maxCoeff() < 1e-9);
     const Surroundings surroundings(parameters, dynamics.space(), 1);
     const LinearisedMembrane membrane(parameters, surroundings, base_state(dynamics, e));

@@ -70,8 +70,8 @@ Eigen::VectorXd followed(const MembraneDynamics& dynamics, double end, double lo
     Evaluation latest;
     StiffProblem problem;
     problem.begin_step = [&](const Eigen::VectorXd& predicted) { operators = dynamics.operators(predicted); };
-    problem.rate = [&](const Eigen::VectorXd& y) {
-        latest = dynamics.evaluate(y, operators);
+    problem.rate = [&](double /*time*/, const Eigen::VectorXd& y) {
+        latest = dynamics.evaluate(0, y, operators);
         return latest.rate;
     };
     problem.jacobian = [&] { return dynamics.jacobian(latest); };
@@ -79,7 +79,7 @@ Eigen::VectorXd followed(const MembraneDynamics& dynamics, double end, double lo
     StiffIntegrator integrator(problem, {0.0, 1e-5, dynamics.initial_vector()}, {longest, 1e-14});
     while (integrator.time() < end) {
         integrator.advance(end);
-        look(integrator, dynamics.evaluate(integrator.state(), operators));
+        look(integrator, dynamics.evaluate(0, integrator.state(), operators));
     }
     return integrator.state();
 }
@@ -140,17 +140,17 @@ TEST_CASE("the Jacobian knows exchange and energetic coupling", "[molecules]") {
     const Parameters parameters = GENERATE(0, 1) == 0 ? coupled(case_of(24)) : with_reservoir(case_of(24));
     const MembraneDynamics dynamics(parameters);
     Eigen::VectorXd y = dynamics.initial_vector();
-    for (int i = 0; i < 3; ++i) y += 1e-5 * dynamics.evaluate(y).rate.normalized();
+    for (int i = 0; i < 3; ++i) y += 1e-5 * dynamics.evaluate(0, y).rate.normalized();
     const auto operators = dynamics.operators(y);
-    const Eigen::MatrixXd jacobian = dynamics.jacobian(dynamics.evaluate(y, operators));
+    const Eigen::MatrixXd jacobian = dynamics.jacobian(dynamics.evaluate(0, y, operators));
     const Index moments = dynamics.space().axial_count(), curve = dynamics.size() - moments;
     const Eigen::VectorXd scales = dynamics.error_scales(y, 1, 1);
     for (const bool of_moments : {false, true}) {
         Eigen::VectorXd direction = waves(dynamics.size(), 1.0).cwiseProduct(scales);
         (of_moments ? direction.head(curve) : direction.tail(moments)).setZero();
         constexpr double step = 1e-6;
-        const Eigen::VectorXd difference = (dynamics.evaluate(y + step * direction, operators).rate -
-                                            dynamics.evaluate(y - step * direction, operators).rate) /
+        const Eigen::VectorXd difference = (dynamics.evaluate(0, y + step * direction, operators).rate -
+                                            dynamics.evaluate(0, y - step * direction, operators).rate) /
                                            (2 * step);
         const Eigen::VectorXd error = (jacobian * direction - difference).cwiseQuotient(scales);
         const Eigen::VectorXd size = difference.cwiseQuotient(scales);
@@ -172,7 +172,7 @@ TEST_CASE("c on a flat membrane relaxes to Langmuir's equilibrium at k_on + k_of
     const Eigen::VectorXd y =
         followed(dynamics, 4, 0.2, 1e-4, [&](const StiffIntegrator& integrator, const Evaluation&) {
             balance.advance(before, integrator.time(),
-                            [&](double t) { return dynamics.exchanged_per_time(integrator.state_at(t)); });
+                            [&](double t) { return dynamics.exchanged_per_time(t, integrator.state_at(t)); });
             before = integrator.time();
             worst = std::max(worst, balance.residual(mass_of(dynamics, integrator.state()), 0));
         });

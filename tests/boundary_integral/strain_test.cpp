@@ -76,10 +76,10 @@ TEST_CASE("the stretching of an extensible membrane is that of its area", "[stra
     const MembraneState initial = dynamics.unpack(y);
     const auto start = strain.markers().xi;
     StiffProblem problem;
-    Evaluation now = dynamics.evaluate(y);
+    Evaluation now = dynamics.evaluate(0, y);
     problem.begin_step = [](const Eigen::VectorXd&) {};
-    problem.rate = [&](const Eigen::VectorXd& at) {
-        now = dynamics.evaluate(at);
+    problem.rate = [&](double /*time*/, const Eigen::VectorXd& at) {
+        now = dynamics.evaluate(0, at);
         return now.rate;
     };
     problem.jacobian = [&] { return dynamics.jacobian(now); };
@@ -88,7 +88,7 @@ TEST_CASE("the stretching of an extensible membrane is that of its area", "[stra
     MaterialRates rates = strain.rates(now);
     for (double time = 0; time < 0.002; time = integrator.time()) {
         integrator.advance(0.002);
-        now = dynamics.evaluate(integrator.state());
+        now = dynamics.evaluate(0, integrator.state());
         const MaterialRates next = strain.rates(now);
         strain.advance(rates, next, integrator.time() - time);
         rates = next;

@@ -36,6 +36,7 @@ struct StepDiagnostics {
     double molecule_dissipation = 0;  // ∫ M |∇_Γ μ|² where bending and line energy drive the molecules
     double exchange_rate = 0;         // ∫ j dA [nm²/µs]
     double exchange_power = 0;        // E + E_c that molecules bring when they come [pN nm/µs]
+    double maturation_power = 0;      // ∂E/∂χ dχ/dt [pN nm/µs]
     BulkMeasures bulk{};
 };
 

@@ -55,6 +55,13 @@ double energy_per_volume(const PointState& at, const LayerEnergy& energy) {
            0.5 * energy.smoothing(at.epsilon) * dot(m, m);
 }
 
+/// ∂e/∂χ dχ/dt = m C(c) dχ/dt per volume, C where χ = 1 [pN/(nm² µs)].
+double maturation_power(const PointState& at, const StepNumbers& step) {
+    if (step.maturation_rate == 0) return 0;
+    const double c = limited_concentration(at.x[molecule_density].value);
+    return step.maturation_rate * at.delta_E * at.x[moment].value * step.matured.spontaneous_curvature(c).value;
+}
+
 void add_flow(const PointState& at, double r, double w, const StepNumbers& step, StepDiagnostics& diagnostics) {
     const auto &ur = at.x[velocity_r], &uz = at.x[velocity_z];
     const double nu = layer_viscosity(at.layer.phi, step.fluid, step.weight, step.numerics.viscosity_mean);
@@ -120,6 +127,7 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
         integrals.molecules += w * at.delta_Gamma * at.x[molecule_density].value;
         integrals.stretching += w * at.delta_Gamma * s;
         diagnostics.bending_energy += w * energy_per_volume(at, energy);
+        diagnostics.maturation_power += w * maturation_power(at, step);
         add_flow(at, point.r, w, step, diagnostics);
         add_molecules(at, w, x[3][molecule_density].value, step.supply ? 1 - x[4][depletion_at_membrane].value : 1,
                       energy, step, diagnostics);
@@ -139,7 +147,7 @@ SolutionMeasures measure_solution(const Space& space, const LayerEnergy& energy,
     sum_over_processes({&integrals.area, &integrals.molecules, &integrals.stretching, &diagnostics.bending_energy,
                         &diagnostics.viscous_dissipation, &diagnostics.mobility_dissipation, &diagnostics.tension_power,
                         &diagnostics.transport_power, &diagnostics.line_energy, &diagnostics.molecule_dissipation,
-                        &diagnostics.exchange_rate, &diagnostics.exchange_power},
+                        &diagnostics.exchange_rate, &diagnostics.exchange_power, &diagnostics.maturation_power},
                        communicator);
     largest_of_processes(
         {&diagnostics.area_strain_max, &diagnostics.thickness_error_max, &diagnostics.profile_error_max,

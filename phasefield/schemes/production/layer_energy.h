@@ -19,8 +19,9 @@ inline constexpr double steepest_sheets = constant("steepest_sheets");
 struct LayerEnergy {
     /// An energy without a part of the coat's edge.
     LayerEnergy(const MembraneEnergy& whole, bool knows_gradient) : LayerEnergy(whole, whole, {}, knows_gradient) {}
-    explicit LayerEnergy(const Parameters& parameters)
-        : LayerEnergy(membrane_energy(parameters), bending_energy(parameters), line_energy(parameters),
+    /// A case's at a time [µs].
+    explicit LayerEnergy(const Parameters& parameters, double time = 0)
+        : LayerEnergy(membrane_energy(parameters, time), bending_energy(parameters, time), line_energy(parameters),
                       energetically_coupled(parameters.molecules)) {}
 
     MembraneEnergy density, bending, edge;  // E + E_c, and its parts

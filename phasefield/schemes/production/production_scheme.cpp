@@ -37,7 +37,6 @@ Vector copied(const Vector& vector) {
 ProductionScheme::ProductionScheme(const Parameters& parameters, MPI_Comm communicator)
     : parameters_(parameters),
       case_(parameters),
-      energy_(parameters),
       mesh_(coarse_mesh(parameters, communicator)),
       space_(*mesh_, field_degrees(parameters.phase_field)),
       solver_(parameters, communicator, newton_part * position_tolerance(parameters)),
@@ -88,7 +87,7 @@ std::vector<Vector> ProductionScheme::with_their_molecules(const StepNumbers& st
 
 StepOutcome ProductionScheme::present() {
     const Vector& solution = state_.solutions.front();
-    const auto measures = measure_solution(space_, energy_, at_rest(), solution);
+    const auto measures = measure_solution(space_, LayerEnergy(parameters_, state_.times.front()), at_rest(), solution);
     StepOutcome out{measures.diagnostics, contour(solution), {}};
     state_.integrals = measures.integrals;
     state_.membrane = out.contour.curve;
@@ -100,7 +99,7 @@ StepOutcome ProductionScheme::start() {
     while (flag_bands(*mesh_, refined_bands(curve, parameters_))) mesh_->execute_coarsening_and_refinement();
     renew();
 
-    state_.solutions = {initial_fields(space_, parameters_, energy_.density)};
+    state_.solutions = {initial_fields(space_, parameters_, membrane_energy(parameters_))};
     state_.solutions.front().update_ghost_values();
     state_.times = {0};
     state_.masses = molecules_of(space_, StepNumbers(case_, 0), state_.solutions);
@@ -108,7 +107,8 @@ StepOutcome ProductionScheme::start() {
     if (bulk_) {
         const StepNumbers numbers(case_, 0);
         const BdfCoefficients none{};
-        bulk = bulk_->start({space_, energy_, numbers, none, state_.solutions.front()}, state_.masses.front());
+        bulk = bulk_->start({space_, LayerEnergy(parameters_), numbers, none, state_.solutions.front()},
+                            state_.masses.front());
     }
     StepOutcome out = present();
     if (bulk_) out.diagnostics.bulk = bulk;
@@ -125,6 +125,7 @@ StepNumbers ProductionScheme::foreseen(double tau, const BdfCoefficients& bdf, d
     StepNumbers out = state_.steps > 0 ? StepNumbers(case_, bdf.rate, state_.speed) : StepNumbers(case_, bdf.rate);
     if (parameters_.phase_field.production.thinning > 0)
         out.thickness = thickness_on(*mesh_, ThicknessCurve(state_.membrane, tau, parameters_));
+    out.maturation_rate = case_.maturation.rate(end);
     const auto ahead = extrapolation_weights(end, state_.times, std::min(state_.order() + 1, state_.times.size()));
     out.molecules = std::inner_product(ahead.begin(), ahead.end(), state_.masses.begin(), 0.0);
     return out;
@@ -137,6 +138,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     trial_.reset();
     Trial trial{foreseen(tau, bdf, end), {}, {}, {}, 0, {}};
     StepNumbers& numbers = trial.numbers;
+    const LayerEnergy energy(parameters_, end);
     trial.before = with_their_molecules(numbers);
     const Vector predicted = polynomial(trial.before, end, known);
     if (numbers.loads.pole_force != 0)
@@ -146,10 +148,10 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     Vector guess = polynomial(trial.before, end, std::min(line_points, known));
     impose_boundary_values(space_, parameters_, guess);
     trial.solution = copied(guess);
-    if (bulk_) numbers.supply = bulk_->foresee({space_, energy_, numbers, bdf, guess});
+    if (bulk_) numbers.supply = bulk_->foresee({space_, energy, numbers, bdf, guess});
     const StepPast past(space_, numbers, trial.before, bdf.past, extrapolation_weights(end, state_.times, order),
                         guess);
-    const StepProblem problem{space_, energy_, numbers, past};
+    const StepProblem problem{space_, energy, numbers, past};
     const unsigned int factorisations = solver_.factors().made();
     solver_.solve(problem, trial.solution);
     const bool hard = solver_.factors().made() > factorisations + 1;
@@ -158,7 +160,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     rate.zero_out_ghost_values();
     rate.add(bdf.rate, trial.solution);
     rate.update_ghost_values();
-    auto measures = measure_solution(space_, energy_, numbers, trial.before.front(), predicted, rate, trial.solution);
+    auto measures = measure_solution(space_, energy, numbers, trial.before.front(), predicted, rate, trial.solution);
     auto& diagnostics = measures.diagnostics;
     diagnostics.net_vertical_force = net_vertical_force(problem, trial.solution);
     diagnostics.extracellular_inflow =
@@ -170,8 +172,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     trial.integrals = measures.integrals;
     trial.layer_motion = measures.layer_motion;
     const double mass = measures.integrals.molecules;
-    if (bulk_)
-        diagnostics.bulk = bulk_->take({space_, energy_, numbers, bdf, trial.solution}, state_.masses, mass, tau);
+    if (bulk_) diagnostics.bulk = bulk_->take({space_, energy, numbers, bdf, trial.solution}, state_.masses, mass, tau);
 
     const double tolerance = step_tolerance(parameters_), of_position = position_tolerance(parameters_);
     const double fraction = known > order ? error_fraction(end, state_.times, order) : 0;
@@ -205,7 +206,8 @@ void ProductionScheme::keep(double time, double tau, const StepOutcome& outcome)
     }
     for (const auto& solution : state_.solutions) solution.update_ghost_values();
     if (bulk_) bulk_->keep(highest_order + 1);
-    if (!case_.exchange.none() || energy_.coupled) state_.moved += edge_motion(state_.membrane, outcome.contour.curve);
+    if (!case_.exchange.none() || energetically_coupled(parameters_.molecules))
+        state_.moved += edge_motion(state_.membrane, outcome.contour.curve);
     state_.moved += trial.layer_motion;
     state_.thickness = trial.numbers.thickness;
     state_.integrals = trial.integrals;

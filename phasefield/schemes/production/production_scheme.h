@@ -62,7 +62,6 @@ class ProductionScheme : public Scheme {
 
     Parameters parameters_;
     CaseNumbers case_;
-    LayerEnergy energy_;
     std::unique_ptr<Mesh> mesh_;
     Space space_;
     StepSolver solver_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "phasefield/layer/constants.h"
 #include "shared/model/membrane_energy.h"
@@ -13,7 +14,7 @@ namespace {
 
 double largest_crowding(const Parameters& p) {
     constexpr int points = 100;
-    const MembraneEnergy energy = bending_energy(p);
+    const MembraneEnergy energy = bending_energy(p, std::numeric_limits<double>::infinity());  // of a mature coat
     double largest = 0;
     for (int i = 1; i <= points; ++i) {
         const double c = static_cast<double>(i) / points;

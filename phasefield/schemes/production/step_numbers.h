@@ -11,8 +11,10 @@
 #include "phasefield/layer/membrane_weight.h"
 #include "phasefield/schemes/production/bulk_supply.h"
 #include "phasefield/schemes/production/rates.h"
+#include "shared/model/bending_model.h"
 #include "shared/model/exchange.h"
 #include "shared/model/loads.h"
+#include "shared/model/maturation.h"
 #include "shared/model/transport_law.h"
 #include "shared/parameters/parameters.h"
 
@@ -30,6 +32,8 @@ struct CaseNumbers {
           normal_diffusivity(p.molecules.normal_diffusivity),
           transport(transport_law(p.molecules)),
           exchange(exchange_law(p.molecules)),
+          maturation(p.molecules),
+          matured(p.membrane),
           loads(loads_of(p)),
           weight(membrane_weight(p.fluid, p.phase_field.viscosity_mean)),
           rates(scheme_rates(p)),
@@ -40,6 +44,8 @@ struct CaseNumbers {
     double normal_diffusivity;  // of c, at least [nm²/µs]
     TransportLaw transport;
     ExchangeLaw exchange;
+    MaturationLaw maturation;
+    BendingModel matured;  // where χ = 1
     Loads loads;
     MembraneWeight weight;  // δ_Γ/δ
     SchemeRates rates;
@@ -61,6 +67,7 @@ struct StepNumbers : CaseNumbers {
     double molecules_alignment;                      // part of least_normal_diffusivity
     double divergence_penalty;                       // γ, of ∇·u over ν
     double molecules = 0;                            // ∫ c dA, predicted [nm²]: what the pool has lost
+    double maturation_rate = 0;                      // dχ/dt [1/µs]
     std::shared_ptr<const CellThickness> thickness;  // of the layer; none: uniform
     std::shared_ptr<const PoleForce> pole_force;     // none: zero
     std::shared_ptr<const BulkSupply> supply;        // none: the bulk is never depleted
