@@ -50,13 +50,10 @@ def pandoc(text, target, page_title, navigation, depth):
 
 
 def navigation(entries, current, depth):
-    """Links to the pages; entries: [(name, title)]. The notes in decisions/ are listed on their own pages and the list's alone."""
+    """Links to the pages; entries: [(name, title)]."""
     items = []
-    notes = [name for name, _ in entries if name.startswith("decisions/") and name != "decisions/index"]
-    heads = {names[0]: group for group, names in [*GROUPS.items(), ("Notes", notes)] if names}
+    heads = {names[0]: group for group, names in GROUPS.items()}
     for name, text in entries:
-        if name in notes and not current.startswith("decisions/"):
-            continue
         if name in heads:
             items.append(f'<li class="group">{heads[name]}</li>')
         here = ' aria-current="page"' if name == current else ""
