@@ -5,6 +5,7 @@
 `make docs-check` runs the commands.
 """
 
+import json
 import os
 import re
 import shutil
@@ -135,21 +136,30 @@ class Pages(unittest.TestCase):
                 [sys.executable, str(TOOLS / "build.py"), PROGRAM, str(output)], check=True, capture_output=True
             )
             model, parameters = (
-                (output / f"{name}.html").read_text(encoding="utf-8") for name in ("model", "parameters")
+                (output / f"{name}.html").read_text(encoding="utf-8") for name in ("model", "parameters/molecules")
             )
             self.assertIn("<math", model)
             self.assertIn("∇<sub>Γ</sub>·u", model)
             self.assertIn("<code>patch_radius</code>", parameters)
             self.assertIn("<td>&gt; 0 and ≤\N{NO-BREAK SPACE}10<sup>5</sup></td>", parameters)
             self.assertNotIn("<col ", parameters)  # widths that would squeeze the keys
+            self.assertIn('href="parameters/molecules.html"', (output / "parameters.html").read_text(encoding="utf-8"))
+            index = (output / build.INDEX_FILE).read_text(encoding="utf-8")
+            entries = json.loads(index.removeprefix("const pages = ").removesuffix(";\n"))
+            self.assertGreater(len([entry for entry in entries if "bending_stiffness_coated" in entry[-1]]), 1)
+            for name, heading, *_ in entries:
+                self.assertIn(f'id="{heading}"', (output / f"{name}.html").read_text(encoding="utf-8"))
             for page in output.rglob("*.html"):
                 text = page.read_text(encoding="utf-8")
                 # A formula's line that begins like a list, with + or -, ends the formula.
                 self.assertNotIn("$$", re.sub(r"<code[^>]*>.*?</code>", "", text, flags=re.S), page.name)
                 self.assertNotRegex(text, r'(src|href)="https?://(?!orcid|doi)[^"]*\.(js|css|png)"', page.name)
-                for target in re.findall(r'(?:src|href)="([^":#]+)["#]', text):
-                    if not target.startswith("../.."):
+                for target, heading in re.findall(r'(?:src|href)="([^":#]*)#?([^":]*)"', text):
+                    if target and not target.startswith("../.."):
                         self.assertTrue((page.parent / target).exists(), f"{page.name}: {target}")
+                    other = page.parent / target if target else page
+                    if heading and other.suffix == ".html" and other.exists():
+                        self.assertIn(f'id="{heading}"', other.read_text(encoding="utf-8"), f"{page.name}: {target}#{heading}")
 
 
 class Prose(unittest.TestCase):

@@ -3,7 +3,8 @@
 
     tools/prose [PAGE…]      a line for each page, README.md and all of docs/ if none is named; below it its long sentences
 
-Code in blocks, displayed formulas and links' targets are no words; code, or a formula, within a line is one.
+Code in blocks, links' targets and the program's own tables, between <!-- reference --> and <!-- end of reference -->, are no words; a
+formula, or code within a line, is one.
 """
 
 import re
@@ -12,7 +13,7 @@ from pathlib import Path
 
 from pages import FENCE, REFERENCE, ROOT, USER_PAGES, pages
 
-#: Most words of a sentence in a page for users, and of all pages but those that hold the program's own tables.
+#: Most words of a sentence in a page for users, and of all pages.
 MOST_WORDS = 40
 MOST_OF_ALL = 42_000
 
@@ -27,6 +28,7 @@ ABBREVIATION = re.compile(
 
 def paragraphs(text):
     """The pieces of a page's Markdown that hold sentences of their own: paragraphs, items, headings, cells."""
+    text = re.sub(r"<!-- reference -->.*?<!-- end of reference -->", "", text, flags=re.S)
     text = re.sub(r"<!--.*?-->", "", FENCE.sub("\n\n", text), flags=re.S)
     text = re.sub(r"\n*^\$\$.*?\$\$\n*", " formula ", text, flags=re.S | re.M)
     text = re.sub(r"^ {4,}(?=(?:build/|mpirun|endoflow |make |python3 |OPENBLAS))[^\n]*$", "", text, flags=re.M)
