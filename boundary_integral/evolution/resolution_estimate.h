@@ -11,7 +11,7 @@ struct ResolutionEstimate {
     double concentration = 0.0;  ///< largest jump of c
 
     /// Relative error of neck radius and budding time that membranes with such jumps have had. Both are functionals of
-    /// a variational method, whose errors go with the square: docs/decisions/sharp-resolution.md has the measurements.
+    /// a variational method, whose errors go with the square: docs/boundary-integral.md has the measurements.
     [[nodiscard]] double relative_error() const { return 5e-3 * curve * curve + 1e-4 * concentration * concentration; }
 };
 

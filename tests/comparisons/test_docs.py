@@ -5,6 +5,7 @@
 `make docs-check` runs the commands.
 """
 
+import json
 import os
 import re
 import shutil
@@ -22,7 +23,8 @@ sys.path.insert(0, str(TOOLS))
 
 import build  # noqa: E402
 import check  # noqa: E402
-from pages import Block, blocks, pages  # noqa: E402
+import prose  # noqa: E402
+from pages import FENCE, Block, blocks, pages  # noqa: E402
 
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 PROGRAM = os.environ.get("ENDOFLOW_PROGRAM")
@@ -34,6 +36,22 @@ class Pages(unittest.TestCase):
         for page in (locations.ROOT / "README.md", *pages()):
             for target in LINK.findall(page.read_text(encoding="utf-8")):
                 if not re.match(r"\w+:|#", target) and not (page.parent / target.split("#")[0]).exists():
+                    broken.append(f"{page.name}: {target}")
+        self.assertEqual(broken, [])
+
+    def test_links_within_pages_lead_somewhere(self):
+        """The part behind # is a heading of the page that it is in, as pandoc and GitHub name it."""
+
+        def headings(page):
+            heads = re.findall(r"^#+ (.*)$", FENCE.sub("", page.read_text(encoding="utf-8")), re.M)
+            return {re.sub(r"[^\w -]", "", head.lower()).replace(" ", "-") for head in heads}
+
+        broken = []
+        for page in (locations.ROOT / "README.md", *pages()):
+            for target in LINK.findall(page.read_text(encoding="utf-8")):
+                name, _, heading = target.partition("#")
+                other = page.parent / name if name else page
+                if heading and ":" not in target and other.suffix == ".md" and heading not in headings(other):
                     broken.append(f"{page.name}: {target}")
         self.assertEqual(broken, [])
 
@@ -73,12 +91,7 @@ class Pages(unittest.TestCase):
         index = (locations.ROOT / "docs" / "index.md").read_text(encoding="utf-8")
         linked = {target.split("#")[0] for target in LINK.findall(index)}
         names = {str(page.relative_to(locations.ROOT / "docs")) for page in pages()}
-        self.assertEqual(sorted(name for name in names - linked - {"index.md"} if not name.startswith(("results/", "decisions/"))), [])
-
-    def test_every_decision_is_listed(self):
-        folder = locations.ROOT / "docs" / "decisions"
-        linked = set(LINK.findall((folder / "index.md").read_text(encoding="utf-8")))
-        self.assertEqual({page.name for page in folder.glob("*.md")} - linked, {"index.md"})
+        self.assertEqual(sorted(names - linked - {"index.md"}), [])
 
     def test_every_case_is_listed(self):
         text = (locations.ROOT / "docs" / "case-files.md").read_text(encoding="utf-8")
@@ -123,21 +136,46 @@ class Pages(unittest.TestCase):
                 [sys.executable, str(TOOLS / "build.py"), PROGRAM, str(output)], check=True, capture_output=True
             )
             model, parameters = (
-                (output / f"{name}.html").read_text(encoding="utf-8") for name in ("model", "parameters")
+                (output / f"{name}.html").read_text(encoding="utf-8") for name in ("model", "parameters/molecules")
             )
             self.assertIn("<math", model)
             self.assertIn("∇<sub>Γ</sub>·u", model)
             self.assertIn("<code>patch_radius</code>", parameters)
             self.assertIn("<td>&gt; 0 and ≤\N{NO-BREAK SPACE}10<sup>5</sup></td>", parameters)
             self.assertNotIn("<col ", parameters)  # widths that would squeeze the keys
+            self.assertIn('href="parameters/molecules.html"', (output / "parameters.html").read_text(encoding="utf-8"))
+            index = (output / build.INDEX_FILE).read_text(encoding="utf-8")
+            entries = json.loads(index.removeprefix("const pages = ").removesuffix(";\n"))
+            self.assertGreater(len([entry for entry in entries if "bending_stiffness_coated" in entry[-1]]), 1)
+            for name, heading, *_ in entries:
+                self.assertIn(f'id="{heading}"', (output / f"{name}.html").read_text(encoding="utf-8"))
             for page in output.rglob("*.html"):
                 text = page.read_text(encoding="utf-8")
                 # A formula's line that begins like a list, with + or -, ends the formula.
                 self.assertNotIn("$$", re.sub(r"<code[^>]*>.*?</code>", "", text, flags=re.S), page.name)
                 self.assertNotRegex(text, r'(src|href)="https?://(?!orcid|doi)[^"]*\.(js|css|png)"', page.name)
-                for target in re.findall(r'(?:src|href)="([^":#]+)["#]', text):
-                    if not target.startswith("../.."):
+                for target, heading in re.findall(r'(?:src|href)="([^":#]*)#?([^":]*)"', text):
+                    if target and not target.startswith("../.."):
                         self.assertTrue((page.parent / target).exists(), f"{page.name}: {target}")
+                    other = page.parent / target if target else page
+                    if heading and other.suffix == ".html" and other.exists():
+                        self.assertIn(f'id="{heading}"', other.read_text(encoding="utf-8"), f"{page.name}: {target}#{heading}")
+
+
+class Prose(unittest.TestCase):
+    """The pages are short, and so are their sentences."""
+
+    def test_sentences(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            page = Path(scratch) / "page.md"
+            text = "# Words\n\nThree [more words](x.md#y). As (J. Doe, Phys. Rev. 1) has it:\n\n$$ a\n= b $$\n\nand `so on`.\n\n| a | b |\n| --- | --- |\n\n"
+            page.write_text(text + "```sh\nmake docs\n```\n\n" + "long " * 41 + ".\n", encoding="utf-8")
+            self.assertEqual(prose.count(page), 1 + 3 + 8 + 1 + 2 + 2 + 41)
+            self.assertEqual(len(prose.long_sentences(page)), 1)
+            done = subprocess.run([TOOLS.parent / "prose", page], capture_output=True, text=True)
+        found = prose.sentences("As (J. Doe, Phys. Rev. 1) has it: V is one. It was (D. Roe et al. 2016) two.")
+        self.assertEqual(found, ["As (J. Doe, Phys. Rev. 1) has it: V is one.", "It was (D. Roe et al. 2016) two."])
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
 class Laboratory(unittest.TestCase):

@@ -8,19 +8,22 @@ ROOT = Path(__file__).resolve().parents[2]
 
 #: Order of the pages below docs/ by groups; any others follow in the order of their names.
 GROUPS = {
-    "Use": (
-        "index", "install", "first-run", "case-files", "parameters-biology", "outputs", "studies", "inference", "paper", "paraview", "python", "web",
-    ),
-    "Methods": (
-        "model", "boundary-integral", "phase-field", "phase-field-paper", "statics", "modes", "noise", "verification", "decisions/index",
+    "Start": ("index", "overview", "install", "tutorial-1", "tutorial-2", "tutorial-3", "gallery", "which-engine", "is-it-right", "troubleshooting"),
+    "Use": ("case-files", "parameters-biology", "outputs", "studies", "inference", "paper", "paraview", "python", "web"),
+    "Theory and methods": (
+        "model", "boundary-integral", "phase-field", "phase-field-paper", "statics", "modes", "noise", "verification", "decisions",
     ),
     "Results": (
-        "results/standard-case", "results/sharp-refinement", "results/smooth-case", "results/patch-radii", "results/vesicles", "results/scheme-paper",
-        "results/inference", "results/paper",
+        "results/standard-case", "results/sharp-refinement", "results/smooth-case", "results/paper", "results/vesicles", "results/growing-coats",
+        "results/loads", "results/inference", "results/modes",
     ),
     "Development": ("architecture", "developer-guide", "extending", "roadmap"),
 }  # fmt: skip
 ORDER = tuple(name for group in GROUPS.values() for name in group)
+
+#: Pages for users, and pages that are the program's own tables, which a test compares with it.
+USER_PAGES = GROUPS["Start"] + GROUPS["Use"]
+REFERENCE = ("parameters",)
 
 #: A fenced block with an optional comment above it.
 FENCE = re.compile(r"^(?:<!-- (?P<mark>[^\n]*?) -->\n+)?```(?P<kind>\w*)\n(?P<text>.*?)^```$", re.M | re.S)

@@ -5,7 +5,7 @@
 
 namespace endoflow::phasefield::production {
 
-// The energy, (D) of docs/phase-field.md, is the stationary value over m of
+// The energy, (L) of docs/phase-field.md, is the stationary value over m of
 //
 //   E[ψ, m, c] = ∫ δ_E (−m κ_ε − e*_ε(−m, c)) − ½ D_m δ_E (∇ψ·∇m)² dx,   κ_ε = −Δψ + (δ_E'/2δ_E) (1 − |∇ψ|²).
 //
@@ -15,13 +15,13 @@ namespace endoflow::phasefield::production {
 //   −∂E/∂m [v]  = −∫ ∂W/∂m v + ∂W/∂∇m·∇v,      ∫ δ_Γ G χ − ∂E/∂ψ[χ] = ∫ (δ_Γ G − ∂W/∂ψ) χ − ∂W/∂∇ψ·∇χ,
 //
 // and, where the energy knows ∇_Γ c, ∫ δ_E μ v − ∂E/∂c [v] in the same way. This κ_ε belongs to this weight: with that
-// of δ the cut of δ_E would exert a force on curved membranes that does not vanish with ε. The last term of (D) keeps m
+// of δ the cut of δ_E would exert a force on curved membranes that does not vanish with ε. The last term of (L) keeps m
 // constant along the normal: a sharp membrane has one curvature, not one for each level set.
 
 template <class Number>
 struct EnergyDensity {
     Number W;              // [pN/nm²]
-    Number at_given_bend;  // the integrand of (D) but for δ_E m Δψ [pN/nm²]
+    Number at_given_bend;  // the integrand of (L) but for δ_E m Δψ [pN/nm²]
     Number delta_E;        // [1/nm]
     Number conjugate;      // e*_ε [pN/nm]
 };

@@ -47,7 +47,7 @@ struct PointState {
     double e_c;  // or μ
 };
 
-/// (D) per volume where it is stationary over m [pN/nm²].
+/// (L) per volume where it is stationary over m [pN/nm²].
 double energy_per_volume(const PointState& at, const LayerEnergy& energy) {
     const auto& m = at.x[moment];
     const double tilt = dot(at.x[distance], m);

@@ -28,7 +28,7 @@ struct LayerEnergy {
     double bare_stiffness;                  // β(0) = ∂²e/∂κ² of the flat membrane without molecules [pN nm]
     bool coupled;  // knows ∇_Γ c: then δ(E + E_c)/δc drives the molecules and the membrane
 
-    /// D_m of (D) [nm²/(pN nm)].
+    /// D_m of (L) [nm²/(pN nm)].
     template <class Thickness>
     [[nodiscard]] Thickness compliance(const Thickness& epsilon) const {
         return (alignment / bare_stiffness) * epsilon * epsilon;

@@ -12,7 +12,7 @@
 namespace endoflow::phasefield::production {
 
 // A membrane is one surface and not a stack of sheets: fields on it are kept constant along the normal, by a diffusion
-// along it, −∇·(D N N·∇y) on the left side of the field's equation. Besides, m is kept so by a term of (D), ∂ψ/∂t by
+// along it, −∇·(D N N·∇y) on the left side of the field's equation. Besides, m is kept so by a term of (L), ∂ψ/∂t by
 // one of (35), and what the membrane sees of a bulk by one of its own equation.
 
 /// A diffusivity along the normal [nm²/µs] made fast within a step: δ_Γ is negative in the layer's tails, where without
