@@ -1,32 +1,46 @@
 #include "phasefield/solver/block_gauss_seidel.h"
 
+#include <utility>
+
 namespace endoflow::phasefield {
+
+namespace {
+
+void take_out(const dealii::FullMatrix<double>& matrix, const std::vector<unsigned int>& rows,
+              const std::vector<unsigned int>& columns, dealii::LAPACKFullMatrix<float>& out) {
+    for (unsigned int i = 0; i < rows.size(); ++i)
+        for (unsigned int k = 0; k < columns.size(); ++k) out(i, k) = static_cast<float>(matrix(rows[i], columns[k]));
+}
+
+}  // namespace
 
 BlockGaussSeidel::BlockGaussSeidel(MPI_Comm communicator, const std::string& name, std::vector<unsigned int> first,
                                    std::vector<unsigned int> second)
-    : components_{std::move(first), std::move(second)},
-      first_(communicator, name, components_[0]),
-      second_(communicator, name, components_[1]) {}
+    : one_{std::move(first), {}, {}},
+      two_{std::move(second), {}, {}},
+      first_(communicator, name, one_.components),
+      second_(communicator, name, two_.components) {}
 
 void BlockGaussSeidel::reinit(const Space& space) {
     first_.reinit(space);
     second_.reinit(space);
-    for (const int block : {0, 1}) {
-        in_cell_[block].clear();
-        for (const unsigned int component : components_[block])
-            in_cell_[block].insert(in_cell_[block].end(), space.local[component].begin(), space.local[component].end());
+    for (Block* block : {&one_, &two_}) {
+        auto& in_cell = block->in_cell;
+        in_cell.clear();
+        for (const unsigned int component : block->components)
+            in_cell.insert(in_cell.end(), space.local[component].begin(), space.local[component].end());
+        block->values.reinit(static_cast<unsigned int>(in_cell.size()));
     }
-    const auto n_1 = static_cast<unsigned int>(in_cell_[0].size()), n_2 = static_cast<unsigned int>(in_cell_[1].size());
-    x_1_.reinit(n_1);
-    change_.reinit(n_2);
+    const unsigned int n_1 = one_.values.size(), n_2 = two_.values.size();
+    cell_values_.reinit(n_1 + n_2);
     cells_.clear();
     positions_.assign(space.dofs.get_triangulation().n_active_cells(), 0);
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         positions_[cell->active_cell_index()] = cells_.size();
         Coupling& kept = cells_.emplace_back();
+        kept.A_12.reinit(n_1, n_2);
         kept.A_21.reinit(n_2, n_1);
-        kept.residual.reinit(space.element.n_dofs_per_cell());
     }
 }
 
@@ -37,17 +51,15 @@ void BlockGaussSeidel::start() {
 
 void BlockGaussSeidel::start_right_hand_side() {
     first_.start_right_hand_side();
-    second_.start_right_hand_side();
 }
 
 void BlockGaussSeidel::add(const Cell& cell, const dealii::FullMatrix<double>& matrix,
                            const dealii::Vector<double>& right_hand_side) {
     first_.add(cell, matrix);
     second_.add(cell, matrix);
-    auto& A_21 = cells_[positions_[cell->active_cell_index()]].A_21;
-    for (unsigned int i = 0; i < in_cell_[1].size(); ++i)
-        for (unsigned int k = 0; k < in_cell_[0].size(); ++k)
-            A_21(i, k) = static_cast<float>(matrix(in_cell_[1][i], in_cell_[0][k]));
+    Coupling& kept = cells_[positions_[cell->active_cell_index()]];
+    take_out(matrix, one_.in_cell, two_.in_cell, kept.A_12);
+    take_out(matrix, two_.in_cell, one_.in_cell, kept.A_21);
     add(cell, right_hand_side);
 }
 
@@ -66,29 +78,36 @@ void BlockGaussSeidel::forget_factors() {
     second_.forget_factors();
 }
 
-void BlockGaussSeidel::hand_over(const Space& space, const Vector& solution) {
-    dealii::Vector<double> values(space.element.n_dofs_per_cell());
+void BlockGaussSeidel::hand_over(const Space& space, const Vector& solution, Block& from, Block& to,
+                                 dealii::LAPACKFullMatrix<float> Coupling::*coupling, CondensedSystem& system) {
+    system.start_right_hand_side();
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
-        cell->get_dof_values(solution, values);
-        for (unsigned int k = 0; k < x_1_.size(); ++k) x_1_(k) = static_cast<float>(values(in_cell_[0][k]));
-        Coupling& kept = cells_[positions_[cell->active_cell_index()]];
-        kept.A_21.vmult(change_, x_1_);
-        for (unsigned int i = 0; i < change_.size(); ++i) kept.residual(in_cell_[1][i]) -= change_(i);
-        second_.add(cell, kept.residual);
+        const Coupling& kept = cells_[positions_[cell->active_cell_index()]];
+        cell->get_dof_values(solution, cell_values_);
+        for (unsigned int k = 0; k < from.values.size(); ++k)
+            from.values(k) = static_cast<float>(cell_values_(from.in_cell[k]));
+        (kept.*coupling).vmult(to.values, from.values);
+        cell_values_ = kept.residual;
+        for (unsigned int i = 0; i < to.values.size(); ++i) cell_values_(to.in_cell[i]) -= to.values(i);
+        system.add(cell, cell_values_);
     }
 }
 
 void BlockGaussSeidel::solve(const Space& space, Vector& solution) {
     first_.solve(space, solution);
-    hand_over(space, solution);
+    hand_over(space, solution, one_, two_, &Coupling::A_21, second_);
     second_.solve(space, solution);
+    hand_over(space, solution, two_, one_, &Coupling::A_12, first_);
+    first_.apply_factors(space, solution);
 }
 
 void BlockGaussSeidel::apply_factors(const Space& space, Vector& solution) {
     first_.apply_factors(space, solution);
-    hand_over(space, solution);
+    hand_over(space, solution, one_, two_, &Coupling::A_21, second_);
     second_.apply_factors(space, solution);
+    hand_over(space, solution, two_, one_, &Coupling::A_12, first_);
+    first_.apply_factors(space, solution);
 }
 
 }  // namespace endoflow::phasefield

@@ -9,11 +9,11 @@
 
 namespace endoflow::phasefield {
 
-/// A linear system on a space, solved approximately by one sweep of the block Gauss–Seidel method: first the components
-/// of one block, as if those of the other were zero, then the others with what they hold of the first,
-///     x₁ = A₁₁⁻¹ r₁,   x₂ = A₂₂⁻¹ (r₂ − A₂₁ x₁).
+/// A linear system on a space, solved approximately by one symmetric sweep of the block Gauss–Seidel method: the
+/// components of one block as if those of the other were zero, then the others, then the first ones again,
+///     x₁ = A₁₁⁻¹ r₁,   x₂ = A₂₂⁻¹ (r₂ − A₂₁ x₁),   x₁ = A₁₁⁻¹ (r₁ − A₁₂ x₂).
 /// The factors of two blocks are smaller than those of the whole; iterations that find the residual of the whole make
-/// up for A₁₂.
+/// up for the rest.
 class BlockGaussSeidel {
   public:
     using Cell = CondensedSystem::Cell;
@@ -28,8 +28,7 @@ class BlockGaussSeidel {
     void start();
     /// Zero right-hand side alone: add() all own cells, then apply_factors().
     void start_right_hand_side();
-    /// A cell's n × n matrix and n right-hand sides, in its own numbering. Rows of the first block are not read in
-    /// columns of the second.
+    /// A cell's n × n matrix and n right-hand sides, in its own numbering.
     void add(const Cell& cell, const dealii::FullMatrix<double>& matrix, const dealii::Vector<double>& right_hand_side);
     /// The right-hand side alone.
     void add(const Cell& cell, const dealii::Vector<double>& right_hand_side);
@@ -47,21 +46,26 @@ class BlockGaussSeidel {
     }
 
   private:
+    /// A block's unknowns in a cell's numbering, with room for their values.
+    struct Block {
+        std::vector<unsigned int> components, in_cell;
+        dealii::Vector<float> values;
+    };
     /// What is kept of a cell.
     struct Coupling {
-        dealii::LAPACKFullMatrix<float> A_21;
-        dealii::Vector<double> residual;  // r, of which the second block's rows are read
+        dealii::LAPACKFullMatrix<float> A_12, A_21;
+        dealii::Vector<double> residual;  // r
     };
 
-    /// The second block's right-hand side, from the first one's solution.
-    void hand_over(const Space& space, const Vector& solution);
+    /// The right-hand side of a block's system, from the solution of the other block.
+    void hand_over(const Space& space, const Vector& solution, Block& from, Block& to,
+                   dealii::LAPACKFullMatrix<float> Coupling::*coupling, CondensedSystem& system);
 
-    std::vector<unsigned int> components_[2];
+    Block one_, two_;
     CondensedSystem first_, second_;
-    std::vector<unsigned int> in_cell_[2];  // the blocks' unknowns in a cell's numbering
-    std::vector<Coupling> cells_;           // own ones
-    std::vector<std::size_t> positions_;    // in cells_, by the active cell's index
-    dealii::Vector<float> x_1_, change_;    // of a cell
+    std::vector<Coupling> cells_;         // own ones
+    std::vector<std::size_t> positions_;  // in cells_, by the active cell's index
+    dealii::Vector<double> cell_values_;
 };
 
 }  // namespace endoflow::phasefield

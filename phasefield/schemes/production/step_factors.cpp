@@ -19,12 +19,7 @@ std::vector<unsigned int> fields_that_are(bool carried, const Parameters& parame
 }  // namespace
 
 StepFactors::StepFactors(const Parameters& parameters, MPI_Comm communicator)
-    : pattern_(equation_pattern()),
-      system_(communicator, "coupled", fields_that_are(true, parameters), fields_that_are(false, parameters)) {
-    std::erase_if(pattern_, [&](const PatternEntry& at) {
-        return carried_along(at.row / 3, parameters) && !carried_along(at.column / 3, parameters);
-    });
-}
+    : system_(communicator, "coupled", fields_that_are(true, parameters), fields_that_are(false, parameters)) {}
 
 bool StepFactors::serve(const StepProblem& problem, const Vector& solution) const {
     if (!system_.has_factors()) return false;

@@ -5,8 +5,8 @@
 
 namespace endoflow::phasefield::production {
 
-/// Factors of the equations' Jacobian without what the fields that are carried along feel of the others. Making them
-/// costs as much as twenty solutions with them, so those of an earlier step are kept.
+/// Factors of the equations' Jacobian in two blocks, of the fields that are carried along and of the others. Making
+/// them costs as much as twenty solutions with them, so those of an earlier step are kept.
 class StepFactors {
   public:
     StepFactors(const Parameters& parameters, MPI_Comm communicator);
@@ -38,7 +38,7 @@ class StepFactors {
     }
 
   private:
-    std::vector<PatternEntry> pattern_;
+    std::vector<PatternEntry> pattern_ = equation_pattern();
     BlockGaussSeidel system_;
     Vector origin_;  // where they were made
     unsigned int made_ = 0, full_ = 0;
