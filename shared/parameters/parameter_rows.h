@@ -1,7 +1,7 @@
 #pragma once
 
-// What the rows of the table of parameters are made with: the words of enumerations, bounds, and the binding of a row to
-// the member that it sets.
+// What the rows of the table of parameters are made with: the words of enumerations, bounds, and the binding of a row
+// to the member that it sets.
 
 #include <array>
 #include <cstddef>
