@@ -88,6 +88,8 @@ std::string bending(const RunRecord& recorded) {
             set_parameter(parameters, row, value.get<std::string>(), where);
         else if (value.is_boolean())
             set_parameter(parameters, row, value.get<bool>(), where);
+        else if (value.is_array())
+            set_parameter(parameters, row, value.get<std::array<double, 2>>(), where);
         else
             set_parameter(parameters, row, value.get<double>(), where);
     }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "shared/model/initial_condition.h"
 #include "shared/model/loads.h"
 #include "shared/model/transport_law.h"
 #include "statics/shape_equations.h"
@@ -23,6 +24,7 @@ struct Material {
     MoleculeParameters molecules;
     Loads loads;
     bool frozen;                           // the molecules
+    double coat;                           // ∫ c da of the initial membrane, nm²
     std::optional<ClosedMembrane> closed;  // instead of all of the above
 };
 
@@ -31,7 +33,6 @@ struct Setting {
     Material material;
     TransportLaw transport;
     double rim_radius, rim_height;
-    double mass;           // ∫ c da of the initial membrane, nm²
     Eigen::Index states;   // of a point
     Eigen::Index globals;  // of a shape from the axis to its end
 };
@@ -64,8 +65,18 @@ struct MaterialPoint {
     ElasticState<Number> elastic;
     Number pressure;       // p, pN/nm²
     Number stress;         // 2 (∂e/∂|∇c|²) (dc/da)², the tension of c's gradient over r², pN/nm³
-    Number force, spread;  // Z and Z/r²: the resultant −F (1 − exp(−a/(πw²)))/2π of the pole force, pN and pN/nm²
+    Number force, spread;  // Z and Z/r²: minus what pulls along z between the pole and a, over 2π, pN and pN/nm²
 };
+
+/// ∫ c da between the pole and a over that of the whole membrane.
+template <class Number, class States>
+[[nodiscard]] Number coat_within(const Material& material, const States& y, const Number& a,
+                                 const Concentration<Number>& c) {
+    if (!material.frozen) return y[state::mass] / material.coat;
+    const double within =
+        initial_coat_within(material.molecules, std::sqrt(2 * std::max(value_of(a), 0.0))) / material.coat;
+    return chain(a, within, value_of(c.value) / material.coat);
+}
 
 /// `y` holds the states at x = a/E, `a` is the label.
 template <class Number, class States>
@@ -87,8 +98,12 @@ template <class Number, class States>
     point.elastic = elastic_state(material.energy, Number(y[state::moment]), point.c.value,
                                   Number(y[state::r_squared] * squared_slope));
     point.stress = 2.0 * point.elastic.by_squared_gradient * squared_slope;
-    point.force =
-        (-0.5 * material.loads.pole_force / std::numbers::pi) * material.loads.force_within(2 * std::numbers::pi * a);
+    if (material.loads.vertical()) {
+        Number pull = material.loads.material_force_within(Number(2 * std::numbers::pi * a));
+        if (material.loads.coat_force != 0)
+            pull = pull + material.loads.coat_force * coat_within(material, y, a, point.c);
+        point.force = (-0.5 / std::numbers::pi) * pull;
+    }
     point.spread = on_axis ? Number(0.0) : point.force / y[state::r_squared];
     return point;
 }
@@ -125,7 +140,7 @@ template <class Number, class States>
     std::vector<Number> zero{y[state::r_squared] - setting.rim_radius * setting.rim_radius, y[state::hoop],
                              tension(point, y) - setting.material.loads.rim_tension,
                              y[state::height] - setting.rim_height};
-    if (!setting.material.frozen) zero.insert(zero.end(), {y[state::gradient], y[state::mass] - setting.mass});
+    if (!setting.material.frozen) zero.insert(zero.end(), {y[state::gradient], y[state::mass] - setting.material.coat});
     return zero;
 }
 

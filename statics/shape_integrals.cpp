@@ -27,16 +27,21 @@ ShapeIntegrals shape_integrals(const StationaryCase& stationary, const Piecewise
     const MembraneEnergy edge = line_energy(stationary.parameters);
     const double rim = stationary.parameters.domain.membrane_height;
     const auto over = [&](const auto& function) { return two_pi * integral(solution, rule, function); };
+    const auto height_above_rim = [&](const auto& share) {
+        return over([&](double a, const Eigen::VectorXd& y) { return (y(state::height) - rim) * share(a, y); });
+    };
+    const auto covered = [&](double a, const Eigen::VectorXd& y) { return point_of_shape(stationary, a, y).c; };
+    const double coat = height_above_rim(covered) / over(covered);
+    const double ring = height_above_rim([&](double a, const auto&) { return loads.ring_share(two_pi * a); });
     return {over([&](double a, const Eigen::VectorXd& y) { return point_of_shape(stationary, a, y).energy_density; }),
             two_pi * solution.globals(global::area),
             over([&](double, const Eigen::VectorXd& y) { return (y(state::height) - rim) * y(state::cosine); }),
-            over([&](double a, const Eigen::VectorXd& y) {
-                return (y(state::height) - rim) * loads.force_share(two_pi * a);
-            }),
+            height_above_rim([&](double a, const auto&) { return loads.force_share(two_pi * a); }),
             over([&](double a, const Eigen::VectorXd& y) {
                 const PointOfShape point = point_of_shape(stationary, a, y);
                 return edge.density(point.total_curvature, point.c, point.squared_gradient).value;
-            })};
+            }),
+            coat - ring};
 }
 
 }  // namespace endoflow::statics

@@ -40,7 +40,11 @@ const std::vector<OwnColumn<ShapeRecord>>& own_shape_columns() {
         {"pole_force_pN", "F", [](const R& r) { return r.loads.pole_force; }},
         {"pole_extension_nm", "z̄ − z(rim): how far the pole force has pulled",
          [](const R& r) { return r.integrals.extension; }},
-        {"potential_pN_nm", "𝒢 = E + E_c + σ A − p V − F z̄", [](const R& r) { return r.integrals.potential(r.loads); }},
+        {"coat_force_pN", "F_a", [](const R& r) { return r.loads.coat_force; }},
+        {"coat_extension_nm", "z̄_c − z̄_ring: how far the coat's force has pulled; without a ring over the rim",
+         [](const R& r) { return r.integrals.coat_extension; }},
+        {"potential_pN_nm", "𝒢 = E + E_c + σ A − p V − F z̄ − F_a (z̄_c − z̄_ring)",
+         [](const R& r) { return r.integrals.potential(r.loads); }},
         {"line_energy_pN_nm", "E_c of the coat's edge, under energetic coupling",
          [](const R& r) { return r.integrals.edge; }},
         {followed_value.name, followed_value.meaning, [](const R& r) { return r.place.followed; }},
@@ -76,6 +80,7 @@ Json write_state(StateWriter& writer, const Parameters& named, const Parameters&
     if (coupled) figures["line_energy_pN_nm"] = integrals.edge;
     if (coupled || !loads.none() || place.hold) figures["potential_pN_nm"] = integrals.potential(loads);
     if (loads.pole_force != 0) figures["pole_extension_nm"] = integrals.extension;
+    if (loads.coat_force != 0) figures["coat_extension_nm"] = integrals.coat_extension;
     if (place.hold) figures["neck_force_pN"] = place.hold->force;
     return figures;
 }

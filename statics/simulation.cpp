@@ -29,9 +29,9 @@ std::vector<std::string> continuable(const Parameters& parameters) {
     const std::vector<std::string> more =
         is_vesicle(parameters)
             ? std::vector<std::string>{"domain.spheroid_polar_axis", "domain.spheroid_equatorial_axis"}
-            : std::vector<std::string>{"molecules.patch_radius", "molecules.interface_width",
-                                       "domain.radius",          "membrane.rim_tension",
-                                       "membrane.pole_force",    "fluid.pressure_difference"};
+            : std::vector<std::string>{"molecules.patch_radius",   "molecules.interface_width", "domain.radius",
+                                       "membrane.rim_tension",     "membrane.pole_force",       "membrane.coat_force",
+                                       "fluid.pressure_difference"};
     keys.insert(keys.end(), more.begin(), more.end());
     if (energetically_coupled(parameters.molecules)) keys.emplace_back("molecules.line_energy");
     return keys;
@@ -48,7 +48,8 @@ std::optional<double> number(const std::string& text) {
 /// Along a branch in a load the membrane may become a tube of any length: it is followed to the top or bottom of the
 /// box.
 bool is_load(const std::string& key) {
-    return key == "membrane.rim_tension" || key == "membrane.pole_force" || key == "fluid.pressure_difference";
+    return key == "membrane.rim_tension" || key == "membrane.pole_force" || key == "membrane.coat_force" ||
+           key == "fluid.pressure_difference";
 }
 
 std::string side_reached(const Parameters& parameters, const PiecewiseSolution& solution) {

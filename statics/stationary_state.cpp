@@ -157,13 +157,16 @@ bool reaches_top_or_bottom(const Parameters& parameters, const PiecewiseSolution
 }
 
 Search search_stationary_state(const Parameters& parameters, const Resolution& resolution) {
-    Parameters pushed = parameters, pulled = parameters;
+    Parameters pulled = parameters;
+    pulled.membrane.coat_force = 0;
+    Parameters pushed = pulled;
     pushed.membrane.pole_force = 0;
     Parameters free = pushed;
     free.fluid.pressure_difference = 0;
     Search search = search_along(free, resolution, neck_is_open);
     add_load(search, free, pushed, "fluid.pressure_difference", resolution);
     add_load(search, pushed, pulled, "membrane.pole_force", resolution);
+    add_load(search, pulled, parameters, "membrane.coat_force", resolution);
     return search;
 }
 

@@ -77,7 +77,7 @@ const std::vector<OwnColumn<StepBalances>>& own_history_columns() {
         {"wall_distance_nm", "to the nearest wall, the rim's neighbourhood left out; empty without walls",
          [](const B& b) { return b.wall_distance; }},
         {"integrator_order", "order of the time step", [](const B& b) { return static_cast<double>(b.order); }},
-        {"load_power_pN_nm_per_us", "power of rim tension, pressure and pole force",
+        {"load_power_pN_nm_per_us", "power of rim tension, pressure, pole force and the force on the coat",
          [](const B& b) { return b.energy.external_power; }},
         {"line_energy_pN_nm", "E_c of the coat's edge, under energetic coupling",
          [](const B& b) { return b.line_energy; }},

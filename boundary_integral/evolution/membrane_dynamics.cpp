@@ -217,9 +217,12 @@ Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
 
     // Velocity freedoms: δu = Y δload with B δu = - δB u.
     Eigen::MatrixXd load_curve = -freedoms.restrict_rows(pack_columns(second.hessian));
-    if (loads_.pole_force != 0.0)
-        load_curve += freedoms.restrict_rows(pack_columns(pole_force_variation(space_, e.samples, loads_)));
     Eigen::MatrixXd load_c = -freedoms.restrict_rows(second.mixed);
+    if (loads_.vertical()) {
+        const VerticalLoadDerivatives pull = vertical_load_derivatives(space_, e.samples, loads_);
+        load_curve += freedoms.restrict_rows(pack_columns(pull.by_curve));
+        load_c += freedoms.restrict_rows(pull.by_c);
+    }
     Eigen::MatrixXd velocity_curve = e.operators->mobility * load_curve;
     Eigen::MatrixXd velocity_c = e.operators->mobility * load_c;
     if (flow_->constrained()) {

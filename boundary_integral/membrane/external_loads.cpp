@@ -39,17 +39,27 @@ Eigen::MatrixXd running_integral(const MembraneSpace& space, const Eigen::Matrix
     return result;
 }
 
-/// The pole force's part per area at the Gauss points [1/nm²] and its derivative by the area from the pole.
-std::vector<LabelJet> force_shares(const MembraneSpace& space, const MembraneSamples& samples, const Loads& loads) {
+/// What rides on the material per area at the Gauss points [pN/nm²] and its derivative by the area from the pole.
+std::vector<LabelJet> material_forces(const MembraneSpace& space, const MembraneSamples& samples, const Loads& loads) {
     Eigen::VectorXd density(space.points());
     for (Index i = 0; i < space.points(); ++i) {
         const CurvePoint& p = samples.curve[static_cast<std::size_t>(i)];
         density[i] = 2.0 * std::numbers::pi * p.r * p.g;
     }
     const Eigen::MatrixXd area = running_integral(space, density);
-    std::vector<LabelJet> shares;
-    for (Index i = 0; i < space.points(); ++i) shares.push_back(loads.force_share(LabelJet::variable(area(i, 0), 0)));
-    return shares;
+    std::vector<LabelJet> forces;
+    for (Index i = 0; i < space.points(); ++i)
+        forces.push_back(loads.material_force(LabelJet::variable(area(i, 0), 0)));
+    return forces;
+}
+
+/// F_a/∫ c dA, pN/nm²; 0 without a force on the coat.
+double force_on_coat(const MembraneSpace& space, const MembraneSamples& samples, const Loads& loads) {
+    if (loads.coat_force == 0.0) return 0.0;
+    double coat = 0.0;
+    for (std::size_t i = 0; i < space.xi.size(); ++i)
+        coat += space.weight[i] * samples.c[i] * samples.curve[i].r * samples.curve[i].g;
+    return loads.coat_force / (2.0 * std::numbers::pi * coat);
 }
 
 }  // namespace
@@ -58,12 +68,13 @@ Eigen::VectorXd external_load(const MembraneSpace& space, const MembraneSamples&
     Eigen::VectorXd load = Eigen::VectorXd::Zero(space.curve_count());
     if (loads.none()) return load;
     if (loads.pressure != 0.0) load += loads.pressure * volume_gradient(space, samples).transpose();
-    if (loads.pole_force != 0.0) {
-        const std::vector<LabelJet> shares = force_shares(space, samples, loads);
+    if (loads.vertical()) {
+        const std::vector<LabelJet> on_material = material_forces(space, samples, loads);
+        const double on_coat = force_on_coat(space, samples, loads);
         for (std::size_t i = 0; i < space.xi.size(); ++i) {
             const CurvePoint& p = samples.curve[i];
             const BasisRow& axial = space.axial_rows[i];
-            const double force = loads.pole_force * space.weight[i] * p.r * p.g * shares[i].value;
+            const double force = space.weight[i] * p.r * p.g * (on_material[i].value + on_coat * samples.c[i]);
             for (std::size_t j = 0; j < 6; ++j)
                 load[space.radial_count() + axial.index[j]] += force * axial.value[0][j];
         }
@@ -72,7 +83,8 @@ Eigen::VectorXd external_load(const MembraneSpace& space, const MembraneSamples&
     return load;
 }
 
-Eigen::MatrixXd pole_force_variation(const MembraneSpace& space, const MembraneSamples& samples, const Loads& loads) {
+VerticalLoadDerivatives vertical_load_derivatives(const MembraneSpace& space, const MembraneSamples& samples,
+                                                  const Loads& loads) {
     const Index offset = space.radial_count();
     Eigen::MatrixXd density = Eigen::MatrixXd::Zero(space.points(), space.curve_count());  // variation of r g
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
@@ -85,16 +97,36 @@ Eigen::MatrixXd pole_force_variation(const MembraneSpace& space, const MembraneS
         }
     }
     const Eigen::MatrixXd area = 2.0 * std::numbers::pi * running_integral(space, density);
-    const std::vector<LabelJet> shares = force_shares(space, samples, loads);
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(space.curve_count(), space.curve_count());
+    const std::vector<LabelJet> on_material = material_forces(space, samples, loads);
+    const double on_coat = force_on_coat(space, samples, loads);
+    // Variations of ∫ c r g dξ.
+    Eigen::RowVectorXd coat_by_curve = Eigen::RowVectorXd::Zero(space.curve_count());
+    Eigen::RowVectorXd coat_by_c = Eigen::RowVectorXd::Zero(space.axial_count());
+    for (std::size_t i = 0; i < space.xi.size(); ++i) {
+        const CurvePoint& p = samples.curve[i];
+        const BasisRow& axial = space.axial_rows[i];
+        coat_by_curve += space.weight[i] * samples.c[i] * density.row(static_cast<Index>(i));
+        for (std::size_t j = 0; j < 6; ++j)
+            coat_by_c[axial.index[j]] += space.weight[i] * p.r * p.g * axial.value[0][j];
+    }
+    // F_a/∫ c dA falls by this part of itself for each nm² that ∫ c r g dξ gains.
+    const double per_coat = loads.coat_force == 0.0 ? 0.0 : 2.0 * std::numbers::pi * on_coat / loads.coat_force;
+    VerticalLoadDerivatives result{Eigen::MatrixXd::Zero(space.curve_count(), space.curve_count()),
+                                   Eigen::MatrixXd::Zero(space.curve_count(), space.axial_count())};
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
         const CurvePoint& p = samples.curve[i];
         const BasisRow& axial = space.axial_rows[i];
         const auto row = static_cast<Index>(i);
-        const Eigen::RowVectorXd change =
-            loads.pole_force * space.weight[i] *
-            (shares[i].value * density.row(row) + shares[i].partial[0] * p.r * p.g * area.row(row));
-        for (std::size_t j = 0; j < 6; ++j) result.row(offset + axial.index[j]) += axial.value[0][j] * change;
+        const double weight = space.weight[i], area_element = p.r * p.g, coat = on_coat * samples.c[i];
+        const Eigen::RowVectorXd by_curve =
+            weight * ((on_material[i].value + coat) * density.row(row) +
+                      area_element * (on_material[i].partial[0] * area.row(row) - per_coat * coat * coat_by_curve));
+        Eigen::RowVectorXd by_c = -weight * area_element * per_coat * coat * coat_by_c;
+        for (std::size_t j = 0; j < 6; ++j) by_c[axial.index[j]] += weight * area_element * on_coat * axial.value[0][j];
+        for (std::size_t j = 0; j < 6; ++j) {
+            result.by_curve.row(offset + axial.index[j]) += axial.value[0][j] * by_curve;
+            result.by_c.row(offset + axial.index[j]) += axial.value[0][j] * by_c;
+        }
     }
     return result;
 }

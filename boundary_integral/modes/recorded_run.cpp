@@ -7,6 +7,7 @@
 
 #include "boundary_integral/evolution/observation.h"
 #include "shared/case/case_file.h"
+#include "shared/model/loads.h"
 #include "shared/model/maturation.h"
 #include "shared/output/hdf5_file.h"
 #include "shared/output/run_record.h"
@@ -23,7 +24,7 @@ void add_overrides(const std::string& section, const RunRecord& keys, std::vecto
         if (value.is_object())
             add_overrides(name, value, overrides);
         else
-            overrides.push_back(name + "=" + value.dump());  // JSON scalars are those of TOML
+            overrides.push_back(name + "=" + value.dump());  // JSON scalars and arrays are those of TOML
     }
 }
 
@@ -33,15 +34,15 @@ std::vector<std::string> as_overrides(const RunRecord& record) {
     return overrides;
 }
 
-/// The linearised membrane is inextensible, in fluid, and no force pulls at its pole.
+/// The linearised membrane is inextensible, in fluid, and no force pulls at its pole or coat.
 void require_modelled(const Parameters& p, const std::string& source) {
     if (p.fluid.dynamics != Dynamics::flow || !p.membrane.inextensible)
         throw InputError(source + ": modes are those of an inextensible membrane in fluid");
     require_no_maturation(p, "modes of a run");
-    if (p.membrane.pole_force != 0)
+    if (loads_of(p).vertical())
         throw InputError(source +
-                         ": modes of a membrane under membrane.pole_force are not modelled: the force rides on the "
-                         "material, whose displacement along the membrane the modes do not follow");
+                         ": modes of a membrane under membrane.pole_force or membrane.coat_force are not modelled: the "
+                         "force rides on the material, whose displacement along the membrane the modes do not follow");
 }
 
 std::string group(std::size_t index) {

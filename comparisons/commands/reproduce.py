@@ -1,7 +1,7 @@
 """`endoflow reproduce ITEM [--quick|--full] [-o DIR] [--jobs N]`: the paper's figures and tables, ours beside them.
 
 ITEM is table2, fig3, fig4, fig5, fig6, fig7, figA2; mobility, attribution, timescale or inertia, which ask why ours differ;
-all; or of other papers hassinger2017, derenyi2002, juelicher1996, and collar, what scission has to do, which are branches
+all; or of other papers hassinger2017, derenyi2002, juelicher1996, akamatsu2020, and collar, what scission has to do, which are branches
 of stationary shapes and need seconds, or for collar minutes; and mund2023, three runs of the sharp engine, a minute.
 The runs lie in DIR/runs and are shared by the items; each item writes DIR/ITEM with report.html, plots (PNG, SVG) and
 ITEM.csv; DIR/index.html lists them, DIR/runs.csv the runs with state, CPU time and an estimate of what is left. Exit codes:

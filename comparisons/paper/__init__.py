@@ -16,7 +16,7 @@ QUESTIONS = ("mobility", "attribution", "timescale", "inertia")
 NAMES = PRINTED + QUESTIONS
 
 #: Items of other papers and questions, which `all` leaves out: branches of stationary shapes, and mund2023, runs.
-OTHER_NAMES = ("hassinger2017", "derenyi2002", "juelicher1996", "collar", "mund2023")
+OTHER_NAMES = ("hassinger2017", "derenyi2002", "juelicher1996", "akamatsu2020", "collar", "mund2023")
 
 
 def item_module(item):

@@ -40,7 +40,7 @@ const std::vector<OwnColumn<StepRecord>>& own_history_columns() {
          [](const R& r) { return r.observables.bending_energy; }},
         {"unknowns", "of the coupled system", [](const R& r) { return r.unknowns; }},
         {"cells", "of the mesh", [](const R& r) { return r.cells; }},
-        {"load_power_pN_nm_per_us", "power of rim tension, pressure and pole force",
+        {"load_power_pN_nm_per_us", "power of rim tension, pressure, pole force and the force on the coat",
          [](const R& r) { return r.diagnostics.load_power; }},
         {"line_energy_pN_nm", "E_c of the coat's edge, under energetic coupling",
          [](const R& r) { return r.diagnostics.line_energy; }},

@@ -53,14 +53,16 @@ def toml_of(sections: Mapping[str, Any], above: str = "") -> str:
 
 
 def literal(value: Any) -> str:
-    """A value in TOML: numbers (also NumPy's), true, false, strings."""
+    """A value in TOML: numbers (also NumPy's), true, false, strings, lists of these."""
     if hasattr(value, "item"):
         value = value.item()
     if isinstance(value, bool) or isinstance(value, str):
         return json.dumps(value, ensure_ascii=False)
     if isinstance(value, (int, float)):
         return repr(value)
-    raise TypeError(f"{value!r}: a parameter is a number, a string, True or False")
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(literal, value)) + "]"
+    raise TypeError(f"{value!r}: a parameter is a number, two numbers, a string, True or False")
 
 
 def settings(values: Mapping[str, Any] | None) -> list[str]:

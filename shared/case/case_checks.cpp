@@ -36,6 +36,9 @@ constexpr double least_contrast = 0.9;
 /// Half width of a band of small cells in units of ε: (1 − φ²)² is 0.04 there.
 constexpr double least_band = 2;
 
+/// A ring as narrow as the coat's edge, nm.
+constexpr double narrowest_ring = 2;
+
 void check_box(const Parameters& p, const Require& require) {
     const double below = p.domain.membrane_height, above = p.domain.height - p.domain.membrane_height;
     require(p.molecules.patch_radius < p.domain.radius,
@@ -78,14 +81,24 @@ void check_box(const Parameters& p, const Require& require) {
 /// −β (j/R)², j = 3.8317 the first zero of J₁, for a disc whose edge is held horizontally.
 void check_loads(const Parameters& p, const Require& require) {
     const Loads loads = loads_of(p);
+    const auto& ring = p.membrane.coat_force_ring;
+    const bool ringed = ring[0] != 0 || ring[1] != 0;
+    require(!ringed || loads.coat_force != 0,
+            fmt::format("membrane.coat_force_ring = [{:g}, {:g}] needs membrane.coat_force", ring[0], ring[1]));
     if (loads.none()) return;
+    require(!ringed || (ring[1] - ring[0] >= narrowest_ring && ring[1] <= p.domain.radius),
+            fmt::format("membrane.coat_force_ring = [{:g}, {:g}] nm must be [a1, a2] with a2 at least {:g} nm larger "
+                        "than a1 and at most domain.radius = {:g} nm",
+                        ring[0], ring[1], narrowest_ring, p.domain.radius));
     require(p.domain.kind == DomainKind::box,
-            "membrane.rim_tension, membrane.pole_force and fluid.pressure_difference need domain.kind = \"box\"");
-    require(
-        p.membrane.inextensible,
-        "membrane.rim_tension, membrane.pole_force and fluid.pressure_difference need membrane.inextensible = true");
+            "membrane.rim_tension, membrane.pole_force, membrane.coat_force and fluid.pressure_difference need "
+            "domain.kind = \"box\"");
+    require(p.membrane.inextensible,
+            "membrane.rim_tension, membrane.pole_force, membrane.coat_force and fluid.pressure_difference need "
+            "membrane.inextensible = true");
     require(p.fluid.dynamics == Dynamics::flow,
-            "membrane.rim_tension, membrane.pole_force and fluid.pressure_difference need fluid.dynamics = \"flow\"");
+            "membrane.rim_tension, membrane.pole_force, membrane.coat_force and fluid.pressure_difference need "
+            "fluid.dynamics = \"flow\"");
     require(
         loads.pole_force == 0 || 3 * loads.force_width <= p.domain.radius,
         fmt::format("membrane.pole_force_width = {:g} nm spreads the force beyond domain.radius = {:g} nm; it must be "

@@ -59,11 +59,25 @@ std::string unknown_key_message(const std::string& section, const std::string& k
     return fmt::format("unknown key {}.{}{}", section, key, suggestion(section + "." + key, names));
 }
 
+/// Both numbers of an array of two; empty when it is anything else.
+std::optional<std::array<double, 2>> two_numbers(const toml::node& node) {
+    const toml::array* array = node.as_array();
+    if (array == nullptr || array->size() != 2) return std::nullopt;
+    std::array<double, 2> numbers{};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto number = array->get(i)->is_number() ? array->get(i)->value<double>() : std::nullopt;
+        if (!number) return std::nullopt;
+        numbers[i] = *number;
+    }
+    return numbers;
+}
+
 ParameterValue value_of(const toml::node& node, const std::string& name, const std::string& where) {
     if (const auto* value = node.as_boolean()) return value->get();
     if (const auto* value = node.as_integer()) return static_cast<long long>(value->get());
     if (const auto* value = node.as_floating_point()) return value->get();
     if (const auto* value = node.as_string()) return value->get();
+    if (const auto numbers = two_numbers(node)) return *numbers;
     const ParameterRow* row = find_parameter(name);
     throw InputError(fmt::format("{}: {} must be {}", where, name, row ? describe_allowed(*row) : "a single value"));
 }

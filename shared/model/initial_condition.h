@@ -8,4 +8,7 @@ namespace endoflow {
 /// c = ½ (1 − tanh((r − r_c)/(√2 ε_c))).
 [[nodiscard]] double initial_concentration(const MoleculeParameters& molecules, double r);
 
+/// ∫ c r dr of that profile from the axis to r, nm².
+[[nodiscard]] double initial_coat_within(const MoleculeParameters& molecules, double r);
+
 }  // namespace endoflow

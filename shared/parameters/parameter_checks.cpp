@@ -12,7 +12,7 @@ namespace endoflow {
 
 namespace {
 
-constexpr const char* type_names[] = {"true or false", "an integer", "a number", "a string"};
+constexpr const char* type_names[] = {"true or false", "an integer", "a number", "a string", "two numbers [a, b]"};
 
 /// An integer is a valid way to write a number in a case file.
 ParameterValue promoted(const ParameterValue& value, const ParameterValue& wanted) {
@@ -132,6 +132,8 @@ void set_parameter(Parameters& parameters, const ParameterRow& row, const Parame
                                      describe_allowed(row)));
     if (const auto* number = std::get_if<double>(&given)) check_number(row, *number, where);
     if (const auto* number = std::get_if<long long>(&given)) check_number(row, static_cast<double>(*number), where);
+    if (const auto* numbers = std::get_if<std::array<double, 2>>(&given))
+        for (const double number : *numbers) check_number(row, number, where);
     if (const auto* text = std::get_if<std::string>(&given)) check_text(row, *text, where);
     row.set(parameters, given);
 }

@@ -52,6 +52,8 @@ std::string to_toml(const ParameterValue& value) {
         const std::string text = fmt::format("{}", *number);
         return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
     }
+    if (const auto* numbers = std::get_if<std::array<double, 2>>(&value))
+        return fmt::format("[{}, {}]", to_toml(numbers->front()), to_toml(numbers->back()));
     return quoted(std::get<std::string>(value));
 }
 

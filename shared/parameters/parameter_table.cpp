@@ -1,98 +1,12 @@
 #include "shared/parameters/parameter_table.h"
 
-#include <array>
-#include <cstddef>
-#include <functional>
-#include <type_traits>
+#include "shared/parameters/parameter_rows.h"
 
 namespace endoflow {
 
 namespace {
 
-/// The words of case files for the values of each enumeration, in their order; a row an enumeration.
-template <class Enum>
-constexpr std::nullptr_t words{};  // an enumeration without a row does not compile
-template <>
-constexpr std::array words<DomainKind>{"box", "free-space"};
-template <>
-constexpr std::array words<Dynamics>{"flow", "geometric"};
-template <>
-constexpr std::array words<CurvatureConvention>{"as-printed", "consistent"};
-template <>
-constexpr std::array words<ConstitutiveLaw>{"linear", "coarse-grained", "lumped"};
-template <>
-constexpr std::array words<Transport>{"cahn-hilliard", "fickian", "advection"};
-template <>
-constexpr std::array words<Coupling>{"none", "energetic"};
-template <>
-constexpr std::array words<Exchange>{"none", "reservoir", "edge"};
-template <>
-constexpr std::array words<Maturation>{"none", "exponential", "cooperative"};
-template <>
-constexpr std::array words<Bulk>{"none", "extracellular", "intracellular"};
-template <>
-constexpr std::array words<PhaseFieldScheme>{"paper", "production"};
-template <>
-constexpr std::array words<StepRule>{"guarded", "ramp"};
-template <>
-constexpr std::array words<BendingUnknown>{"moment", "f"};
-template <>
-constexpr std::array words<ForceSign>{"plus", "minus"};
-template <>
-constexpr std::array words<ViscosityMean>{"arithmetic", "harmonic"};
-
-/// Binds a row to the member it sets; `section` finds the member's struct in Parameters. `Member` decides the type a
-/// case file must use.
-template <class Find, class Section, class Member>
-ParameterRow row(const char* section_name, const char* key, Find section, Member Section::*member, const char* unit,
-                 Bounds bounds, const char* symbol, const char* meaning) {
-    ParameterRow result{section_name, key, unit, bounds, symbol, meaning, {}, nullptr, nullptr};
-    if constexpr (std::is_enum_v<Member>) {
-        for (const char* name : words<Member>) result.choices.emplace_back(name);
-        result.get = [section, member](const Parameters& p) -> ParameterValue {
-            return std::string(words<Member>[static_cast<std::size_t>(std::invoke(section, p).*member)]);
-        };
-        result.set = [section, member](Parameters& p, const ParameterValue& value) {
-            const auto& name = std::get<std::string>(value);
-            for (std::size_t i = 0; i < words<Member>.size(); ++i)
-                if (name == words<Member>[i]) std::invoke(section, p).*member = static_cast<Member>(i);
-        };
-    } else if constexpr (std::is_same_v<Member, int>) {
-        result.get = [section, member](const Parameters& p) -> ParameterValue {
-            return static_cast<long long>(std::invoke(section, p).*member);
-        };
-        result.set = [section, member](Parameters& p, const ParameterValue& value) {
-            std::invoke(section, p).*member = static_cast<int>(std::get<long long>(value));
-        };
-    } else {
-        result.get = [section, member](const Parameters& p) -> ParameterValue {
-            return std::invoke(section, p).*member;
-        };
-        result.set = [section, member](Parameters& p, const ParameterValue& value) {
-            std::invoke(section, p).*member = std::get<Member>(value);
-        };
-    }
-    return result;
-}
-
-/// A row of a parameter that a restart may change.
-ParameterRow free_on_restart(ParameterRow row) {
-    row.free_on_restart = true;
-    return row;
-}
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Bounds any() {
-    return {};
-}
-Bounds positive(double highest = infinity) {
-    return {0, highest, true, false};
-}
-Bounds at_least(double lowest, double highest = infinity) {
-    return {lowest, highest, false, false};
-}
-
+using namespace parameter_rows;
 using P = Parameters;
 
 std::vector<ParameterRow> case_rows() {
@@ -168,6 +82,10 @@ std::vector<ParameterRow> membrane_rows() {
             "force on the membrane around the axis, as of growing actin; > 0 pulls it into the cell"),
         row("membrane", "pole_force_width", &P::membrane, &S::pole_force_width, "nm", {0.1, 1e3}, "w",
             "the pole force's density falls off as exp(-a/(π w^2)), a the membrane's area from the pole"),
+        row("membrane", "coat_force", &P::membrane, &S::coat_force, "pN", {-1e4, 1e4}, "F_a",
+            "force on the coat, in proportion to c, as of actin bound to it; > 0 pulls it into the cell"),
+        row("membrane", "coat_force_ring", &P::membrane, &S::coat_force_ring, "nm", at_least(0, 1e5), "[a1, a2]",
+            "material radii of the ring around the coat that bears -F_a; [0, 0] = the rim bears it"),
         row("membrane", "gaussian_stiffness", &P::membrane, &S::gaussian_stiffness, "pN nm", {-1e5, 1e5}, "κ_G",
             "energy per Gaussian curvature; only statics --hold names it: scission of a neck costs 4π κ_G more"),
     };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <string>
@@ -11,7 +12,7 @@
 namespace endoflow {
 
 /// A parameter's value as a case file writes it; enumerations are strings.
-using ParameterValue = std::variant<bool, long long, double, std::string>;
+using ParameterValue = std::variant<bool, long long, double, std::string, std::array<double, 2>>;
 
 /// Closed or open interval of allowed numbers; the default allows every finite number.
 struct Bounds {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 namespace endoflow {
@@ -58,6 +59,8 @@ struct MembraneParameters {
     double rim_tension = 0;
     double pole_force = 0;
     double pole_force_width = 5;
+    double coat_force = 0;
+    std::array<double, 2> coat_force_ring{};
     double gaussian_stiffness = 0;
 };
 

@@ -24,6 +24,8 @@ Parameters with_loads(Parameters parameters) {
     parameters.membrane.rim_tension = 0.05;
     parameters.fluid.pressure_difference = 1e-3;
     parameters.membrane.pole_force = 20;
+    parameters.membrane.coat_force = 30;
+    parameters.membrane.coat_force_ring = {42, 70};
     return parameters;
 }
 
@@ -162,27 +164,67 @@ TEST_CASE("a vesicle in free space keeps area and volume and has no net force", 
     CHECK(e.flow.power > 0);
 }
 
-TEST_CASE("the pole force adds up to F and rides on the material", "[dynamics][loads]") {
+// The power of a unit motion upwards.
+double total_force(const MembraneSpace& space, const MembraneSamples& samples, const Loads& loads) {
+    return 2.0 * pi * external_load(space, samples, loads).tail(space.axial_count()).sum();
+}
+
+TEST_CASE("the pole force adds up to F, that on the coat to F_a, and with a ring to nothing", "[dynamics][loads]") {
+    const MembraneSpace space(24, 8);
+    const MembraneSamples samples = sample(space, bulge(space, 25));
+    Parameters pole, coat, ringed;
+    pole.membrane.pole_force = 20;
+    coat.membrane.coat_force = ringed.membrane.coat_force = 30;
+    ringed.membrane.coat_force_ring = {42, 70};
+    CHECK(total_force(space, samples, loads_of(pole)) == Approx(20).epsilon(1e-6));  // the quadrature of the density
+    CHECK(total_force(space, samples, loads_of(coat)) == Approx(30).epsilon(1e-13));
+    CHECK(std::abs(total_force(space, samples, loads_of(ringed))) < 30 * 1e-6);
+}
+
+TEST_CASE("a force on a coat that is all in the spot is the pole force", "[dynamics][loads]") {
+    const MembraneSpace space(24, 8);
+    Parameters pole, coat;
+    pole.membrane.pole_force = coat.membrane.coat_force = 20;
+    const Loads on_pole = loads_of(pole);
+    // The flat membrane, with c in proportion to the spot's density.
+    const double radius = pole.domain.radius;
+    MembraneSamples samples = sample(space, state_of(
+                                                space, [&](double x) { return radius * x; },
+                                                [](double) { return 80.0; }, [](double) { return 0.0; }));
+    for (std::size_t i = 0; i < samples.c.size(); ++i)
+        samples.c[i] = 7 * on_pole.force_share(pi * samples.curve[i].r * samples.curve[i].r);
+    const Eigen::VectorXd expected = external_load(space, samples, on_pole),
+                          found = external_load(space, samples, loads_of(coat));
+    CHECK((found - expected).norm() < 1e-6 * expected.norm());  // the quadrature of the density
+}
+
+TEST_CASE("vertical loads vary with the membrane and its molecules", "[dynamics][loads]") {
     Parameters parameters = small_case();
     parameters.membrane.pole_force = 20;
-    const Loads pole_alone = loads_of(parameters);
+    parameters.membrane.coat_force = 30;
+    parameters.membrane.coat_force_ring = {42, 70};
+    const Loads loads = loads_of(parameters);
     const MembraneSpace space(24, 8);
     const MembraneState state = bulge(space, 25);
-    const Eigen::VectorXd load = external_load(space, sample(space, state), pole_alone);
-    const double total = load.tail(space.axial_count()).sum();  // the power of a unit motion upwards, over 2 pi
-    CHECK(2.0 * pi * total == Approx(20).epsilon(1e-6));        // the quadrature of the force's density
-    const Eigen::MatrixXd exact = pole_force_variation(space, sample(space, state), pole_alone);
+    const VerticalLoadDerivatives exact = vertical_load_derivatives(space, sample(space, state), loads);
     Eigen::VectorXd direction(space.curve_count());
     for (Index i = 0; i < direction.size(); ++i) direction[i] = std::sin(3.0 * static_cast<double>(i) + 1.0);
     const auto displaced = [&](double amount) {
         MembraneState moved = state;
         moved.r += amount * direction.head(space.radial_count());
         moved.z += amount * direction.tail(space.axial_count());
-        return external_load(space, sample(space, moved), pole_alone);
+        return external_load(space, sample(space, moved), loads);
+    };
+    const auto coated = [&](double amount) {
+        MembraneState moved = state;
+        moved.c += amount * direction.tail(space.axial_count());
+        return external_load(space, sample(space, moved), loads);
     };
     constexpr double step = 1e-5;
-    const Eigen::VectorXd difference = (displaced(step) - displaced(-step)) / (2.0 * step);
-    CHECK((exact * direction - difference).norm() < 1e-7 * difference.norm());
+    const Eigen::VectorXd by_curve = (displaced(step) - displaced(-step)) / (2.0 * step),
+                          by_c = (coated(step) - coated(-step)) / (2.0 * step);
+    CHECK((exact.by_curve * direction - by_curve).norm() < 1e-7 * by_curve.norm());
+    CHECK((exact.by_c * direction.tail(space.axial_count()) - by_c).norm() < 1e-7 * by_c.norm());
 }
 
 TEST_CASE("the round-off of a membrane at rest is no flux out of balance", "[dynamics][loads]") {

@@ -26,32 +26,43 @@ Parameters unloaded(int elements) {
 }
 
 // The standard case under one load each.
-std::vector<LoadCase> single_loads(int elements, double rim_tension, double pressure, double pole_force) {
+std::vector<LoadCase> single_loads(int elements, double rim_tension, double pressure, double force) {
     LoadCase tension{"rim tension", unloaded(elements)}, push{"pressure", unloaded(elements)},
-        pull{"pole force", unloaded(elements)};
+        pull{"pole force", unloaded(elements)}, coat{"force on the coat", unloaded(elements)},
+        ring{"force on the coat, held by a ring", unloaded(elements)};
     tension.parameters.membrane.rim_tension = rim_tension;
     push.parameters.fluid.pressure_difference = pressure;
-    pull.parameters.membrane.pole_force = pole_force;
-    return {tension, push, pull};
+    pull.parameters.membrane.pole_force = force;
+    coat.parameters.membrane.coat_force = ring.parameters.membrane.coat_force = force;
+    ring.parameters.membrane.coat_force_ring = {40, 70};
+    // z̄_c varies by motion alone where the molecules stay in the material.
+    coat.parameters.molecules.transport = ring.parameters.molecules.transport = Transport::advection;
+    return {tension, push, pull, coat, ring};
 }
 
-// −σ A + p V + F z̄ of a curve, pN nm; z̄ by the trapezoidal rule over the material's area from the pole.
+// −σ A + p V + F z̄ + F_a (z̄_c − z̄_ring) of a curve, pN nm; heights by the trapezoidal rule over the material's area
+// from the pole.
 double potential_of_loads(const Parameters& parameters, const MembraneSpace& space, const MembraneState& state) {
     const Loads loads = loads_of(parameters);
     const ShapeMeasures shape = measure_shape(space, state, parameters.domain);
     constexpr int steps = 20000;
-    double area = 0, height = 0, slope_before = 0, pull_before = 0;
+    double area = 0, work = 0, coat = 0, lift = 0, slope_before = 0, pull_before = 0, c_before = 0, lift_before = 0;
     for (int i = 0; i <= steps; ++i) {
         const double xi = static_cast<double>(i) / steps;
         const CurvePoint p = curve_point(space.radial().basis(xi), space.axial().basis(xi), state);
         const double slope = 2 * pi * p.r * p.g;
         if (i > 0) area += (slope + slope_before) / (2 * steps);
-        const double pull = p.z * loads.force_share(area) * slope;
-        if (i > 0) height += (pull + pull_before) / (2 * steps);
-        slope_before = slope, pull_before = pull;
+        const double pull = p.z * loads.material_force(area) * slope;
+        const double c = space.axial().basis(xi).evaluate(state.c) * slope, c_lift = p.z * c;
+        if (i > 0) {
+            work += (pull + pull_before) / (2 * steps);
+            coat += (c + c_before) / (2 * steps);
+            lift += (c_lift + lift_before) / (2 * steps);
+        }
+        slope_before = slope, pull_before = pull, c_before = c, lift_before = c_lift;
     }
-    return -loads.rim_tension * shape.membrane_area + loads.pressure * shape.extracellular_volume +
-           loads.pole_force * height;
+    return -loads.rim_tension * shape.membrane_area + loads.pressure * shape.extracellular_volume + work +
+           loads.coat_force * lift / coat;
 }
 
 Eigen::VectorXd bulged(const MembraneDynamics& dynamics) {

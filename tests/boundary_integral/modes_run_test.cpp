@@ -186,6 +186,8 @@ TEST_CASE("a run whose membrane a force pulls has no modes, one under tension an
     CHECK(recorded("loaded").parameters().membrane.rim_tension == 0.1);
     parameters.membrane.pole_force = 5;
     CHECK_THROWS_AS(recorded("pulled"), InputError);
+    std::swap(parameters.membrane.pole_force, parameters.membrane.coat_force);
+    CHECK_THROWS_AS(recorded("coat pulled"), InputError);
 }
 
 TEST_CASE("a directory without a sharp run has no modes", "[modes]") {

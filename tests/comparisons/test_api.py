@@ -128,7 +128,8 @@ class Pieces(unittest.TestCase):
 
             self.assertEqual(tomllib.loads(text), case)
         self.assertEqual(settings({"a.x": "word"}), ["--set", 'a.x="word"'])
-        for wrong in (None, [1], {}):
+        self.assertEqual(literal([40, np.float64(60.5)]), "[40, 60.5]")
+        for wrong in (None, [None], {}):
             with self.assertRaises(TypeError):
                 literal(wrong)
         with self.assertRaisesRegex(TypeError, "a case is a dict of sections"):

@@ -11,7 +11,7 @@ import numpy as np
 from comparisons.commands import reproduce
 from comparisons.commands.options import parsed
 from comparisons.errors import StudyError
-from comparisons.paper import OTHER_NAMES, collar, derenyi2002, hassinger2017, item, item_module, juelicher1996
+from comparisons.paper import OTHER_NAMES, akamatsu2020, collar, derenyi2002, hassinger2017, item, item_module, juelicher1996
 from scratch import scratch_directory
 
 
@@ -79,6 +79,27 @@ class ReadOff(unittest.TestCase):
             self.assertEqual(reproduce.run(parsed("reproduce", ["derenyi2002", "-o", str(output)])), 0)
         self.assertIn("derenyi2002/report.html", (output / "index.html").read_text(), "an index of no runs")
         self.assertFalse((output / "runs.csv").exists())
+
+    def test_force_on_a_coat(self):
+        """The largest force on the way in, and where the branch ends."""
+        columns = {
+            "coat_force_pN": np.array([0.0, 20.0, 15.0]),
+            "coat_extension_nm": np.array([5.0, 40.0, 120.0]),
+            "bud_height_nm": np.array([6.0, 45.0, 99.0]),
+            "neck_radius_nm": np.array([np.nan, np.nan, 8.0]),
+        }
+        with mock.patch.object(akamatsu2020, "followed", return_value=item.Branch(columns, [20.0], "the neck closes")):
+            result = akamatsu2020.result({}, True)
+        self.assertEqual(len(result.rows), 3 * len(akamatsu2020.QUICK_TENSIONS))
+        self.assertEqual(result.rows[0]["neck_radius_nm"], "")
+        # 2π √(2 · 160 · 0.01) = 11.24
+        words = "20 pN to 100 nm, first fold at 20 pN; the neck closes at 120 nm; a tube takes 11.24 pN"
+        self.assertEqual(result.printed[0].ours[""], words)
+        branch = item.Branch(columns, [], "here")
+        self.assertAlmostEqual(akamatsu2020.force_to(branch, 22.5), 10)
+        self.assertIsNone(akamatsu2020.force_to(branch, 130))
+        self.assertEqual(akamatsu2020.force_to(branch, 5), 0)
+        self.assertEqual(result.printed[1].paper, "over 100 pN")
 
     def test_barriers_of_the_collar(self):
         """A barrier in k_BT, a neck that closes by itself, and a case without a neck beside them."""

@@ -74,6 +74,7 @@ Parameters loaded() {
     p.membrane.rim_tension = 0.05;
     p.fluid.pressure_difference = 0.3;
     p.membrane.pole_force = 20;
+    p.membrane.coat_force = 30;
     p.fluid.inertia = true;
     p.fluid.density = 1;  // large enough to be seen
     return p;
@@ -90,6 +91,7 @@ StepNumbers numbers(Parameters p) {
     p.phase_field.production.profile_relaxation = p.phase_field.production.stretching_alignment = 10;
     StepNumbers step = step_numbers(p, 40, 10);
     step.molecules = 4000;
+    step.coat_force = p.membrane.coat_force / step.molecules;
     return step;
 }
 
@@ -103,7 +105,7 @@ PointPast some_past(const Parameters& p) {
     past.slope_z = 0.05;
     past.arc = 1.2;
     past.metric = 1.3;
-    past.pole_force = p.membrane.pole_force;
+    past.material_force = p.membrane.pole_force;
     return past;
 }
 

@@ -65,7 +65,7 @@ TEST_CASE("a wrong case says where, what, and what is allowed") {
     CHECK_THAT(message_of("[domain]\nradius = nan\n"), Contains("out of bounds"));
     CHECK_THAT(message_of("[fluid]\ndynamics = \"fast\"\n"), Contains("\"flow\", \"geometric\""));
     CHECK_THAT(message_of("[boundary_integral]\nelements = 60.5\n"), Contains("an integer"));
-    CHECK_THAT(message_of("[time]\nend = [1, 2]\n"), Contains("time.end must be a number"));
+    CHECK_THAT(message_of("[time]\nend = [1, 2, 3]\n"), Contains("time.end must be a number"));
     CHECK_THAT(message_of("[time\n"), Contains("case.toml:") && Contains("not valid TOML"));
     CHECK_THAT(message_of("time = 3\n"), Contains("must be a section"));
     CHECK_THAT(message_of("", {"time.end"}), Contains("section.key=value"));

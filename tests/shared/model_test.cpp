@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "shared/model/bending_model.h"
 #include "shared/model/double_well.h"
@@ -90,6 +91,30 @@ TEST_CASE("the initial profile is an equilibrium of (24): ε c'' = W'(c)/ε") {
         CHECK(epsilon * second == Approx(double_well(c(r)).first / epsilon).margin(1e-6));
     }
     CHECK(initial_concentration(molecules, molecules.patch_radius) == 0.5);
+}
+
+TEST_CASE("the initial coat within a radius is the integral of its profile") {
+    for (const double radius : {3.0, 36.0, 500.0}) {
+        MoleculeParameters molecules;
+        molecules.patch_radius = radius;
+        double sum = 0;
+        const double end = radius + 20;
+        constexpr int pieces = 40000;
+        const auto integrand = [&](double r) { return r * initial_concentration(molecules, r); };
+        for (int i = 0; i < pieces; ++i) {
+            const double begin = end * i / pieces, width = end / pieces;
+            sum += width / 6 * (integrand(begin) + 4 * integrand(begin + width / 2) + integrand(begin + width));
+            // Simpson's rule errs by 1e-14 of the whole here; the closed form's round-off is of the same size.
+            if (i % 4001 == 0)
+                CHECK(initial_coat_within(molecules, begin + width) == Approx(sum).margin(1e-11 * radius * radius));
+        }
+        CHECK(initial_coat_within(molecules, end) == Approx(sum).epsilon(1e-11));
+    }
+    MoleculeParameters sharp;
+    sharp.interface_width = 1e-3;
+    // δ²π²/6 beyond that of a step.
+    CHECK(initial_coat_within(sharp, 80) ==
+          Approx(0.5 * 36 * 36 + 0.5e-6 * std::numbers::pi * std::numbers::pi / 6).epsilon(1e-14));
 }
 
 TEST_CASE("concentrations are clipped to [0, 1]") {

@@ -47,6 +47,7 @@ TEST_CASE("every numeric key refuses values that are not finite or outside its b
 TEST_CASE("values are written so that TOML reads them back unchanged") {
     CHECK(to_toml(true) == "true");
     CHECK(to_toml(20.0) == "20.0");
+    CHECK(to_toml(std::array{20.0, 0.5}) == "[20.0, 0.5]");
     CHECK(to_toml(0.0709219858) == "0.0709219858");
     CHECK(to_toml(std::string("a \"b\"\n")) == "\"a \\\"b\\\"\\u000a\"");
 }
@@ -56,6 +57,15 @@ TEST_CASE("the nearest known word is found, far ones are not suggested") {
     CHECK(edit_distance("", "abc") == 3);
     CHECK(nearest_word("tolerence", {"tolerance", "end"}).value() == "tolerance");
     CHECK_FALSE(nearest_word("zzzzzz", {"tolerance", "end"}).has_value());
+}
+
+TEST_CASE("two numbers are read from a file and from --set, and stand in JSON as an array") {
+    const std::string force = "[membrane]\ncoat_force = 10\n";
+    const Parameters p = parse_case(force + "coat_force_ring = [40, 60.5]\n", "case.toml", {});
+    CHECK(p.membrane.coat_force_ring == std::array{40.0, 60.5});
+    CHECK(parameters_to_json(p)["membrane"]["coat_force_ring"] == std::array{40.0, 60.5});
+    const Parameters set = parse_case(force, "case.toml", {"membrane.coat_force_ring=[50,70]"});
+    CHECK(set.membrane.coat_force_ring == std::array{50.0, 70.0});
 }
 
 TEST_CASE("a section within a section is an object within an object, and --set finds it") {

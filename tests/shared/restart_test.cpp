@@ -147,6 +147,8 @@ TEST_CASE("a restart with another problem is refused by name and changes nothing
             row.set(changed, *number == 0 ? 1 : 1.5 * *number);
         else if (const auto* integer = std::get_if<long long>(&old_value))
             row.set(changed, *integer + 1);
+        else if (const auto* numbers = std::get_if<std::array<double, 2>>(&old_value))
+            row.set(changed, std::array{numbers->front(), numbers->back() + 1});
         else if (const auto* flag = std::get_if<bool>(&old_value))
             row.set(changed, !*flag);
         else

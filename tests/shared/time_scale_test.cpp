@@ -20,6 +20,8 @@ TEST_CASE("the structure's length is the smallest one that the model has, whatev
     CHECK(length_of_structure(p) == Approx(std::sqrt(3000)));
     p.membrane.pole_force = 100;
     CHECK(length_of_structure(p) == Approx(12 * std::numbers::pi));
+    p.membrane.coat_force = -200;
+    CHECK(length_of_structure(p) == Approx(6 * std::numbers::pi));
     p.fluid.pressure_difference = -600;
     CHECK(length_of_structure(p) == Approx(1));
     p = {};

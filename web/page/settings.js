@@ -39,7 +39,7 @@ class Settings {
 
   /** A value that is the default is no setting. */
   set(name, value) {
-    if (value === undefined || value === this.table.get(name)?.default) delete this.values[name];
+    if (value === undefined || String(value) === String(this.table.get(name)?.default)) delete this.values[name];
     else this.values[name] = value;
   }
 
@@ -90,11 +90,16 @@ function decoded(text) {
 /** What a person typed, as a value of the parameter's kind where it can be one; else the text, which the engine refuses. */
 function typedValue(text, kin) {
   if (typeof kin === "boolean") return text === "true" ? true : text === "false" ? false : text;
+  if (Array.isArray(kin)) {
+    const numbers = text.replace(/[[\]]/g, "").split(",").map((part) => (part.trim() === "" ? NaN : Number(part)));
+    return numbers.length === kin.length && numbers.every(Number.isFinite) ? numbers : text;
+  }
   if (typeof kin === "number" && text.trim() !== "" && Number.isFinite(Number(text))) return Number(text);
   return text;
 }
 
 function tomlValue(value, kin) {
+  if (Array.isArray(value)) return `[${value.join(", ")}]`;
   if (typeof value === "number") return Number.isInteger(kin) || !Number.isInteger(value) ? String(value) : value.toFixed(0);
   return typeof value === "string" ? JSON.stringify(value) : String(value);
 }

@@ -57,14 +57,15 @@ double load_power(const StepProblem& problem, const Vector& solution) {
     if (step.loads.none()) return 0;
     const dealii::QGauss<2> quadrature(gauss_points(step.numerics));
     double sum = 0;
-    for_each_point(space, step, quadrature, {{&space, &solution, {velocity_r, velocity_z, distance}}},
+    for_each_point(space, step, quadrature, {{&space, &solution, {velocity_r, velocity_z, distance, molecule_density}}},
                    [&](const CellPoint& at, const auto& fields) {
                        const Fields<double>& x = fields.front();
                        const PointPast& past = problem.past.points.at(at.cell->active_cell_index())[at.q];
                        const auto layer = layer_profile(x[distance].value, at.thickness.value);
                        const double u_r = x[velocity_r].value, u_z = x[velocity_z].value;
                        const double pushed = -step.loads.pressure * (x[distance].r * u_r + x[distance].z * u_z);
-                       sum += at.measure * delta_Gamma(layer, step.weight) * (pushed + past.pole_force * u_z);
+                       const double pulled = past.material_force + step.coat_force * x[molecule_density].value;
+                       sum += at.measure * delta_Gamma(layer, step.weight) * (pushed + pulled * u_z);
                    });
     RimTension rim(space, step);
     for_each_cell(space, [&](const Cell& cell, const CellBox& /*box*/) { sum += rim.power(cell, solution); });

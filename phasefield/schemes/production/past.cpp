@@ -61,8 +61,8 @@ class PastFields {
                 const double w = well / (well + last_below);
                 return direction<double>(w * r + (1 - w) * last.r, w * z + (1 - w) * last.z);
             };
-            if (step_->pole_force && well > weight_cut * weight_cut)
-                points[q].pole_force = step_->pole_force->at(box.r0 + box.hr * x[0], box.z0 + box.hz * x[1]);
+            if (step_->material_force && well > weight_cut * weight_cut)
+                points[q].material_force = step_->material_force->at(box.r0 + box.hr * x[0], box.z0 + box.hz * x[1]);
             const double around = predicted_.r[q] / (box.r0 + box.hr * x[0]);
             points[q].bulk = supply[q];
             points[q].normal = normal(predicted_.r[q], predicted_.z[q], tail_cut);

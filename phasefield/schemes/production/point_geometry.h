@@ -47,7 +47,7 @@ struct PointPast {
     PointThickness thickness;         // ε, the same for all times
     double arc = 1, metric = 1;       // sheet_arc, sheet_metric
     double even = 1;                  // evenness
-    double pole_force = 0;            // along z, per area of membrane [pN/nm²]
+    double material_force = 0;        // along z, per area of membrane [pN/nm²]
     double bulk = 1;                  // c_b/c_∞ of the fluid that molecules come from
 };
 

@@ -128,6 +128,7 @@ StepNumbers ProductionScheme::foreseen(double tau, const BdfCoefficients& bdf, d
     out.maturation_rate = case_.maturation.rate(end);
     const auto ahead = extrapolation_weights(end, state_.times, std::min(state_.order() + 1, state_.times.size()));
     out.molecules = std::inner_product(ahead.begin(), ahead.end(), state_.masses.begin(), 0.0);
+    out.coat_force = case_.loads.coat_force / out.molecules;
     return out;
 }
 
@@ -141,8 +142,8 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     const LayerEnergy energy(parameters_, end);
     trial.before = with_their_molecules(numbers);
     const Vector predicted = polynomial(trial.before, end, known);
-    if (numbers.loads.pole_force != 0)
-        numbers.pole_force = std::make_shared<const PoleForce>(contour(predicted).curve, numbers.loads);
+    if (numbers.loads.pole_force != 0 || (numbers.loads.coat_force != 0 && numbers.loads.has_ring()))
+        numbers.material_force = std::make_shared<const MaterialForce>(contour(predicted).curve, numbers.loads);
     // Extrapolation of higher order would amplify what little the fields go back and forth in the layer's tails: with
     // the moment's noise, whose alignment is quadratic in it, Newton's first step would throw the whole bud off course.
     Vector guess = polynomial(trial.before, end, std::min(line_points, known));

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "phasefield/contour/layer_thickness.h"
-#include "phasefield/contour/pole_force.h"
+#include "phasefield/contour/material_force.h"
 #include "phasefield/layer/constants.h"
 #include "phasefield/layer/membrane_weight.h"
 #include "phasefield/schemes/production/bulk_supply.h"
@@ -62,15 +62,16 @@ struct StepNumbers : CaseNumbers {
           molecules_alignment(std::clamp(speed / rates.fast_membrane, slowest_alignment, 1.0)),
           divergence_penalty(speed > 0 ? std::min(most_penalty, rates.divergence_penalty / speed) : most_penalty) {}
 
-    double rate;                                     // a₀ [1/µs]
-    double profile_relaxation;                       // M_p [nm/µs]
-    double molecules_alignment;                      // part of least_normal_diffusivity
-    double divergence_penalty;                       // γ, of ∇·u over ν
-    double molecules = 0;                            // ∫ c dA, predicted [nm²]: what the pool has lost
-    double maturation_rate = 0;                      // dχ/dt [1/µs]
-    std::shared_ptr<const CellThickness> thickness;  // of the layer; none: uniform
-    std::shared_ptr<const PoleForce> pole_force;     // none: zero
-    std::shared_ptr<const BulkSupply> supply;        // none: the bulk is never depleted
+    double rate;                                          // a₀ [1/µs]
+    double profile_relaxation;                            // M_p [nm/µs]
+    double molecules_alignment;                           // part of least_normal_diffusivity
+    double divergence_penalty;                            // γ, of ∇·u over ν
+    double molecules = 0;                                 // ∫ c dA, predicted [nm²]: what the pool has lost
+    double coat_force = 0;                                // F_a/∫ c dA [pN/nm²]
+    double maturation_rate = 0;                           // dχ/dt [1/µs]
+    std::shared_ptr<const CellThickness> thickness;       // of the layer; none: uniform
+    std::shared_ptr<const MaterialForce> material_force;  // none: zero
+    std::shared_ptr<const BulkSupply> supply;             // none: the bulk is never depleted
 
     /// ε at the point (x, y) of a unit cell.
     [[nodiscard]] PointThickness thickness_at(std::size_t active_cell, const CellBox& box, double x, double y) const {

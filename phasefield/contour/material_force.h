@@ -7,11 +7,11 @@
 
 namespace endoflow::phasefield {
 
-/// The pole force per area as data of a step, as the layer's thickness is: it rides on the material, whose label is the
-/// area from the pole along the membrane as it is predicted for the end of the step.
-class PoleForce {
+/// What rides on the material per area, the pole force and the ring's, as data of a step, as the layer's thickness is:
+/// the material's label is the area from the pole along the membrane as it is predicted for the end of the step.
+class MaterialForce {
   public:
-    PoleForce(const MembraneCurve& membrane, const Loads& loads);
+    MaterialForce(const MembraneCurve& membrane, const Loads& loads);
 
     /// At the membrane's point closest to (r, z), along e_z [pN/nm²].
     [[nodiscard]] double at(double r, double z) const;

@@ -1,4 +1,4 @@
-#include "phasefield/contour/pole_force.h"
+#include "phasefield/contour/material_force.h"
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +7,7 @@
 
 namespace endoflow::phasefield {
 
-PoleForce::PoleForce(const MembraneCurve& membrane, const Loads& loads)
+MaterialForce::MaterialForce(const MembraneCurve& membrane, const Loads& loads)
     : loads_(loads), r_(membrane.r), z_(membrane.z) {
     area_.assign(r_.size(), 0);
     for (std::size_t i = 1; i < r_.size(); ++i)
@@ -15,8 +15,8 @@ PoleForce::PoleForce(const MembraneCurve& membrane, const Loads& loads)
             area_[i - 1] + std::numbers::pi * (r_[i] + r_[i - 1]) * std::hypot(r_[i] - r_[i - 1], z_[i] - z_[i - 1]);
 }
 
-double PoleForce::at(double r, double z) const {
-    return loads_.pole_force * loads_.force_share(at_closest_point(r_, z_, area_, r, z));
+double MaterialForce::at(double r, double z) const {
+    return loads_.material_force(at_closest_point(r_, z_, area_, r, z));
 }
 
 }  // namespace endoflow::phasefield
