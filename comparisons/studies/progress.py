@@ -1,8 +1,8 @@
 """How far a study is: what its runs are expected to cost, and the line that says how far all of them are.
 
 Seconds of CPU time on a core of 2024, from runs that were measured; the present machine's speed corrects them. Sharp engine: 11 s to
-20 µs (docs/results/sharp-refinement.md). Scheme production: 430 s to 1.2 µs, and as ε^-1.55 (docs/results/standard-case.md). Scheme
-paper: by steps and unknowns (docs/results/paper.md).
+20 µs. Scheme production: 430 s to 1.2 µs, and as ε^-1.55. Scheme paper: by steps and unknowns. docs/results/standard-case.md has what
+runs cost today.
 """
 
 import math
