@@ -35,8 +35,6 @@ std::vector<LoadCase> single_loads(int elements, double rim_tension, double pres
     pull.parameters.membrane.pole_force = force;
     coat.parameters.membrane.coat_force = ring.parameters.membrane.coat_force = force;
     ring.parameters.membrane.coat_force_ring = {40, 70};
-    // z̄_c varies by motion alone where the molecules stay in the material.
-    coat.parameters.molecules.transport = ring.parameters.molecules.transport = Transport::advection;
     return {tension, push, pull, coat, ring};
 }
 
@@ -76,7 +74,9 @@ Eigen::VectorXd bulged(const MembraneDynamics& dynamics) {
 TEST_CASE("every load's power is the rate of the work done on the membrane", "[loads]") {
     for (const LoadCase& loaded : single_loads(48, 0.5, 0.02, 50)) {
         CAPTURE(loaded.name);
-        const Parameters& parameters = loaded.parameters;
+        Parameters parameters = loaded.parameters;
+        // z̄_c varies by motion alone where the molecules stay in the material.
+        if (parameters.membrane.coat_force != 0) parameters.molecules.transport = Transport::advection;
         const MembraneDynamics dynamics(parameters);
         const Eigen::VectorXd y = bulged(dynamics);
         const Evaluation e = dynamics.evaluate(0, y);
