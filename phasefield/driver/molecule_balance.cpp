@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 
 #include "shared/numerics/lagrange.h"
 
@@ -28,10 +27,11 @@ void MoleculeBalance::advance(double time, double rate) {
         times_.pop_back();
         rates_.pop_back();
     }
-    // Simpson's rule is exact for cubics.
+    // Simpson's rule is exact for cubics. Weights of times that are close to each other are large and cancel.
     const double before = times_[1];
     const std::vector<double> weights = lagrange_weights(times_, 0.5 * (before + time));
-    const double middle = std::inner_product(weights.begin(), weights.end(), rates_.begin(), 0.0);
+    double middle = rates_[1];
+    for (std::size_t j = 0; j < weights.size(); ++j) middle += weights[j] * (rates_[j] - rates_[1]);
     exchanged_ += (time - before) / 6 * (rates_[1] + 4 * middle + rate);
 }
 

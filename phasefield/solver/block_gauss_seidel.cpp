@@ -106,8 +106,6 @@ void BlockGaussSeidel::apply_factors(const Space& space, Vector& solution) {
     first_.apply_factors(space, solution);
     hand_over(space, solution, one_, two_, &Coupling::A_21, second_);
     second_.apply_factors(space, solution);
-    hand_over(space, solution, two_, one_, &Coupling::A_12, first_);
-    first_.apply_factors(space, solution);
 }
 
 }  // namespace endoflow::phasefield

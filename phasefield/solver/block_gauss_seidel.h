@@ -9,11 +9,12 @@
 
 namespace endoflow::phasefield {
 
-/// A linear system on a space, solved approximately by one symmetric sweep of the block Gauss–Seidel method: the
-/// components of one block as if those of the other were zero, then the others, then the first ones again,
-///     x₁ = A₁₁⁻¹ r₁,   x₂ = A₂₂⁻¹ (r₂ − A₂₁ x₁),   x₁ = A₁₁⁻¹ (r₁ − A₁₂ x₂).
-/// The factors of two blocks are smaller than those of the whole; iterations that find the residual of the whole make
-/// up for the rest.
+/// A linear system on a space, solved approximately by a sweep of the block Gauss–Seidel method: the components of one
+/// block as if those of the other were zero, then the others,
+///     x₁ = A₁₁⁻¹ r₁,   x₂ = A₂₂⁻¹ (r₂ − A₂₁ x₁),
+/// and with new factors, when the changes are large, a symmetric one: x₁ = A₁₁⁻¹ (r₁ − A₁₂ x₂) once more. The factors
+/// of two blocks are smaller than those of the whole; iterations that find the residual of the whole make up for the
+/// rest.
 class BlockGaussSeidel {
   public:
     using Cell = CondensedSystem::Cell;
@@ -38,8 +39,8 @@ class BlockGaussSeidel {
     [[nodiscard]] Precision precision() const { return first_.precision(); }
     void forget_factors();
     [[nodiscard]] bool has_factors() const { return first_.has_factors() && second_.has_factors(); }
-    void solve(const Space& space, Vector& solution);
-    void apply_factors(const Space& space, Vector& solution);
+    void solve(const Space& space, Vector& solution);          // a symmetric sweep
+    void apply_factors(const Space& space, Vector& solution);  // a sweep
     /// Of both blocks.
     [[nodiscard]] SubdomainSystem::Index shared_unknowns() const {
         return first_.shared_unknowns() + second_.shared_unknowns();

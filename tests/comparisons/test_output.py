@@ -74,7 +74,7 @@ class Output(CompareTest):
             page = (alone / "report" / "report.html").read_text()
             self.assertRegex(page, rf"<th scope=\"row\">alarms</th><td>{words}")
             self.assertIn("<td>as-printed</td>", page)
-            self.assertIn("layer of ε = 1.2 nm", page)
+            self.assertIn("32 elements, time tolerance", page)
             self.assertRegex(page, r"membrane_<wbr>area_<wbr>nm2</code></th><td>[\d\u2009]+</td><td>nm²</td><td>what the family has")
             self.assertNotRegex(page, r"(?:src|href)=\"(?!data:)")
             self.assertEqual(unnamed_basis(page), [])

@@ -128,7 +128,7 @@ StepNumbers ProductionScheme::foreseen(double tau, const BdfCoefficients& bdf, d
     out.maturation_rate = case_.maturation.rate(end);
     const auto ahead = extrapolation_weights(end, state_.times, std::min(state_.order() + 1, state_.times.size()));
     out.molecules = std::inner_product(ahead.begin(), ahead.end(), state_.masses.begin(), 0.0);
-    out.coat_force = case_.loads.coat_force / out.molecules;
+    if (case_.loads.coat_force != 0) out.coat_force = case_.loads.coat_force / out.molecules;
     return out;
 }
 
