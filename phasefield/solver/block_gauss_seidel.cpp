@@ -60,7 +60,8 @@ void BlockGaussSeidel::add(const Cell& cell, const dealii::FullMatrix<double>& m
     Coupling& kept = cells_[positions_[cell->active_cell_index()]];
     take_out(matrix, one_.in_cell, two_.in_cell, kept.A_12);
     take_out(matrix, two_.in_cell, one_.in_cell, kept.A_21);
-    add(cell, right_hand_side);
+    second_.add(cell, right_hand_side);
+    kept.residual = right_hand_side;
 }
 
 void BlockGaussSeidel::add(const Cell& cell, const dealii::Vector<double>& right_hand_side) {
@@ -95,11 +96,11 @@ void BlockGaussSeidel::hand_over(const Space& space, const Vector& solution, Blo
 }
 
 void BlockGaussSeidel::solve(const Space& space, Vector& solution) {
-    first_.solve(space, solution);
-    hand_over(space, solution, one_, two_, &Coupling::A_21, second_);
     second_.solve(space, solution);
     hand_over(space, solution, two_, one_, &Coupling::A_12, first_);
-    first_.apply_factors(space, solution);
+    first_.solve(space, solution);
+    hand_over(space, solution, one_, two_, &Coupling::A_21, second_);
+    second_.apply_factors(space, solution);
 }
 
 void BlockGaussSeidel::apply_factors(const Space& space, Vector& solution) {

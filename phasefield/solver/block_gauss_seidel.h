@@ -12,9 +12,8 @@ namespace endoflow::phasefield {
 /// A linear system on a space, solved approximately by a sweep of the block Gauss–Seidel method: the components of one
 /// block as if those of the other were zero, then the others,
 ///     x₁ = A₁₁⁻¹ r₁,   x₂ = A₂₂⁻¹ (r₂ − A₂₁ x₁),
-/// and with new factors, when the changes are large, a symmetric one: x₁ = A₁₁⁻¹ (r₁ − A₁₂ x₂) once more. The factors
-/// of two blocks are smaller than those of the whole; iterations that find the residual of the whole make up for the
-/// rest.
+/// and with new factors, when the changes are large, by a symmetric sweep that begins and ends with x₂. The factors of
+/// two blocks are smaller than those of the whole; iterations that find the residual of the whole make up for the rest.
 class BlockGaussSeidel {
   public:
     using Cell = CondensedSystem::Cell;
