@@ -38,7 +38,7 @@ void Backoff::note(bool failed) {
 }
 
 StepSolver::StepSolver(const Parameters& parameters, MPI_Comm communicator, double wanted)
-    : factors_(parameters, communicator), wanted_(wanted) {
+    : factors_(communicator), wanted_(wanted) {
     const Scales by = scales(parameters);
     for (const auto& unknown : unknowns()) least_.push_back(round_off * unknown.size(by));
 }
