@@ -29,6 +29,8 @@ struct Loads {
     /// Whether the membrane is pulled along z.
     [[nodiscard]] bool vertical() const { return pole_force != 0 || coat_force != 0; }
     [[nodiscard]] bool has_ring() const { return ring[1] > 0; }
+    /// Whether part of that rides on the material.
+    [[nodiscard]] bool on_material() const { return pole_force != 0 || (coat_force != 0 && has_ring()); }
 
     /// The pole force's part exp(−a/(πw²))/(πw²) per area [1/nm²], as a function of a [nm²].
     template <class Number>

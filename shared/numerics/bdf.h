@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "shared/numerics/lagrange.h"
+
 namespace endoflow {
 
 /// Backward differentiation on uneven steps. Past times come newest first.
@@ -27,11 +29,7 @@ inline BdfCoefficients bdf_coefficients(double time, const std::vector<double>& 
 
 /// Weights of the values at times[0 … count) in the polynomial through them, at `time`.
 inline std::vector<double> extrapolation_weights(double time, const std::vector<double>& times, std::size_t count) {
-    std::vector<double> weights(count, 1.0);
-    for (std::size_t j = 0; j < count; ++j)
-        for (std::size_t m = 0; m < count; ++m)
-            if (m != j) weights[j] *= (time - times[m]) / (times[j] - times[m]);
-    return weights;
+    return lagrange_weights({times.begin(), times.begin() + static_cast<std::ptrdiff_t>(count)}, time);
 }
 
 /// Error of the BDF solution as part of its difference to the predictor through order + 1 past values:

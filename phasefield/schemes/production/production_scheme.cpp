@@ -142,7 +142,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     const LayerEnergy energy(parameters_, end);
     trial.before = with_their_molecules(numbers);
     const Vector predicted = polynomial(trial.before, end, known);
-    if (numbers.loads.pole_force != 0 || (numbers.loads.coat_force != 0 && numbers.loads.has_ring()))
+    if (numbers.loads.on_material())
         numbers.material_force = std::make_shared<const MaterialForce>(contour(predicted).curve, numbers.loads);
     // Extrapolation of higher order would amplify what little the fields go back and forth in the layer's tails: with
     // the moment's noise, whose alignment is quadratic in it, Newton's first step would throw the whole bud off course.
