@@ -5,8 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "phasefield/fem/reduction.h"
+#include <utility>
 
 namespace endoflow::phasefield {
 
@@ -16,19 +15,26 @@ constexpr double linearly_dependent = 1e-8;  // part of a change that is left be
 
 }  // namespace
 
-AndersonMixing::AndersonMixing(const Space& space, const Vector& first, const std::vector<double>& least,
-                               const Vector& counted) {
-    weight_.reinit(first, false);
-    const auto fields = dealii::DoFTools::locally_owned_dofs_per_component(space.dofs);
-    for (std::size_t field = 0; field < fields.size(); ++field) {
-        double square = 0, unknowns = 0;
-        for (const auto i : fields[field]) {
-            square += counted(i) * first(i) * first(i);
-            unknowns += counted(i);
-        }
-        sum_over_processes({&square, &unknowns}, first.get_mpi_communicator());
-        square = std::max(square, unknowns * least[field] * least[field]);
-        for (const auto i : fields[field]) weight_(i) = square > 0 ? counted(i) / square : 0;
+AndersonMixing::AndersonMixing(const Space& space, std::vector<double> least, Vector counted)
+    : fields_(dealii::DoFTools::locally_owned_dofs_per_component(space.dofs)),
+      largest_(std::move(least)),
+      counted_(std::move(counted)) {
+    weight_.reinit(counted_, false);
+    for (std::size_t field = 0; field < fields_.size(); ++field) {
+        double unknowns = 0;
+        for (const auto i : fields_[field]) unknowns += counted_(i);
+        largest_[field] *= largest_[field] * dealii::Utilities::MPI::sum(unknowns, counted_.get_mpi_communicator());
+    }
+}
+
+void AndersonMixing::measure_by(const Vector& increment) {
+    std::vector<double> squares(fields_.size());
+    for (std::size_t field = 0; field < fields_.size(); ++field)
+        for (const auto i : fields_[field]) squares[field] += counted_(i) * increment(i) * increment(i);
+    dealii::Utilities::MPI::sum(squares, increment.get_mpi_communicator(), squares);
+    for (std::size_t field = 0; field < fields_.size(); ++field) {
+        largest_[field] = std::max(largest_[field], squares[field]);
+        for (const auto i : fields_[field]) weight_(i) = largest_[field] > 0 ? counted_(i) / largest_[field] : 0;
     }
 }
 
@@ -61,7 +67,9 @@ void AndersonMixing::remember(const Vector& increment) {
 }
 
 void AndersonMixing::advance(Vector& x, const Vector& increment) {
-    if (last_increment_.size() > 0) remember(increment);
+    ++increments_;
+    if (increments_ <= 2) measure_by(increment);
+    if (increments_ > 1) remember(increment);
     Vector movement = increment, rest = increment;
     for (std::size_t i = 0; i < changes_.size(); ++i) {
         const double part = product(changes_[i], rest);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deal.II/base/index_set.h>
+
 #include <vector>
 
 #include "phasefield/fem/space.h"
@@ -12,10 +14,11 @@ namespace endoflow::phasefield {
 class AndersonMixing {
   public:
     /// The norm of an increment is that of its fields' l² norms, in which unknown i has the weight counted(i), each
-    /// relative to that of `first`, the first increment, or, where that is round-off, to `least[field]` per unknown.
-    AndersonMixing(const Space& space, const Vector& first, const std::vector<double>& least, const Vector& counted);
+    /// relative to the larger one of the first two increments (one sweep over blocks of fields may leave a field as it
+    /// is) or, where both are round-off, to `least[field]` per unknown.
+    AndersonMixing(const Space& space, std::vector<double> least, Vector counted);
 
-    /// The norm above: at most √(number of fields) for `first` itself. Collective.
+    /// The norm above: at most √(number of fields) for the first increment. Collective.
     [[nodiscard]] double norm(const Vector& increment) const;
 
     /// x becomes the next iterate; `increment` is d(x). Ghost values of x are updated. Collective.
@@ -23,11 +26,15 @@ class AndersonMixing {
 
   private:
     [[nodiscard]] double product(const Vector& a, const Vector& b) const;
+    void measure_by(const Vector& increment);
     void remember(const Vector& increment);
 
-    Vector weight_;                            // of the inner product
+    std::vector<dealii::IndexSet> fields_;     // own unknowns
+    std::vector<double> largest_;              // l² norms of the fields, squared
+    Vector counted_, weight_;                  // weight_: of the inner product
     std::vector<Vector> changes_, movements_;  // orthonormal changes of d, and the movements of x that caused them
     Vector last_increment_, last_movement_;
+    int increments_ = 0;
 };
 
 }  // namespace endoflow::phasefield

@@ -14,24 +14,25 @@ namespace endoflow::phasefield {
 
 namespace {
 
-/// The space's element without the unknowns inside of the cell. Those on vertices and faces come first in both, in the
-/// same order.
-dealii::FESystem<2> face_element(const std::vector<unsigned int>& degrees) {
+/// These components of the space's element without the unknowns inside of the cell. Those on vertices and faces come
+/// first in both, in the same order.
+dealii::FESystem<2> face_element(const Space& space, const std::vector<unsigned int>& components) {
     std::vector<std::shared_ptr<dealii::FE_TraceQ<2>>> elements;
     std::vector<const dealii::FiniteElement<2>*> addresses;
-    for (const unsigned int degree : degrees)
-        addresses.push_back(elements.emplace_back(std::make_shared<dealii::FE_TraceQ<2>>(degree)).get());
-    return {addresses, std::vector<unsigned int>(degrees.size(), 1)};
+    for (const unsigned int component : components)
+        addresses.push_back(
+            elements.emplace_back(std::make_shared<dealii::FE_TraceQ<2>>(space.degrees[component])).get());
+    return {addresses, std::vector<unsigned int>(components.size(), 1)};
 }
 
 }  // namespace
 
-CondensedSystem::CondensedSystem(MPI_Comm communicator, std::string name)
-    : name_(std::move(name)), system_(communicator, name_) {}
+CondensedSystem::CondensedSystem(MPI_Comm communicator, std::string name, std::vector<unsigned int> components)
+    : name_(std::move(name)), components_(std::move(components)), system_(communicator, name_) {}
 
 void CondensedSystem::reinit(const Space& space) {
     const auto& mesh = space.dofs.get_triangulation();
-    const auto element = face_element(space.degrees);
+    const auto element = face_element(space, components_);
     dealii::DoFHandler<2> dofs(mesh);
     dofs.distribute_dofs(element);
     dealii::IndexSet relevant;
@@ -39,15 +40,20 @@ void CondensedSystem::reinit(const Space& space) {
     dealii::AffineConstraints<double> constraints(relevant);
     dealii::DoFTools::make_hanging_node_constraints(dofs, constraints);
 
+    in_cell_.clear();
+    for (const unsigned int component : components_)
+        in_cell_.insert(in_cell_.end(), space.local[component].begin(), space.local[component].end());
+    std::sort(in_cell_.begin(), in_cell_.end());
     n_outer_ = element.n_dofs_per_cell();
-    n_inner_ = space.element.n_dofs_per_cell() - n_outer_;
+    n_inner_ = static_cast<unsigned int>(in_cell_.size()) - n_outer_;
     cells_.clear();
     positions_.assign(mesh.n_active_cells(), 0);
-    std::vector<SubdomainSystem::Index> indices(n_outer_ + n_inner_), outer(n_outer_);
+    std::vector<SubdomainSystem::Index> all(space.element.n_dofs_per_cell()), indices(in_cell_.size()), outer(n_outer_);
     std::vector<std::vector<SubdomainSystem::Index>> outer_unknowns;
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (cell->is_artificial()) continue;
-        cell->get_dof_indices(indices);
+        cell->get_dof_indices(all);
+        for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = all[in_cell_[i]];
         same_cell(cell, dofs)->get_dof_indices(outer);
         for (unsigned int i = 0; i < n_outer_; ++i)
             if (space.constraints.is_constrained(indices[i]) && !constraints.is_constrained(outer[i]))
@@ -77,8 +83,9 @@ void CondensedSystem::start() {
     undetermined_ = false;
 }
 
-void CondensedSystem::eliminate(const dealii::FullMatrix<double>& A, Elimination& cell) {
+void CondensedSystem::eliminate(const dealii::FullMatrix<double>& matrix, Elimination& cell) {
     const unsigned int m = n_outer_, n = n_inner_;
+    const auto A = [&](unsigned int i, unsigned int k) { return matrix(in_cell_[i], in_cell_[k]); };
     Dense A_ii(n, n);
     for (unsigned int i = 0; i < n; ++i) {
         // The rows' sizes differ by many powers of ten away from the membrane, and pivoting compares them.
@@ -115,18 +122,16 @@ void CondensedSystem::eliminate(const dealii::FullMatrix<double>& A, Elimination
 }
 
 void CondensedSystem::condense(const dealii::Vector<double>& right_hand_side, Elimination& cell) {
-    for (unsigned int i = 0; i < n_inner_; ++i) cell.residual(i) = right_hand_side(n_outer_ + i);
+    for (unsigned int i = 0; i < n_inner_; ++i) cell.residual(i) = right_hand_side(in_cell_[n_outer_ + i]);
     for (const unsigned int i : cell.fixed) cell.residual(i) = 0;
-    for (unsigned int i = 0; i < n_outer_; ++i) outer_residual_(i) = right_hand_side(i);
+    for (unsigned int i = 0; i < n_outer_; ++i) outer_residual_(i) = right_hand_side(in_cell_[i]);
     cell.from_inner.vmult_add(outer_residual_, cell.residual);
 }
 
-void CondensedSystem::add(const Cell& cell, const dealii::FullMatrix<double>& matrix,
-                          const dealii::Vector<double>& right_hand_side) {
+void CondensedSystem::add(const Cell& cell, const dealii::FullMatrix<double>& matrix) {
     const std::size_t position = positions_[cell->active_cell_index()];
     eliminate(matrix, cells_[position]);
-    condense(right_hand_side, cells_[position]);
-    system_.add(position, outer_matrix_, outer_residual_);
+    system_.add(position, outer_matrix_);
 }
 
 void CondensedSystem::add(const Cell& cell, const dealii::Vector<double>& right_hand_side) {

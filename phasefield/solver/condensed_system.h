@@ -9,9 +9,10 @@
 
 namespace endoflow::phasefield {
 
-/// A linear system on a space from which the unknowns inside of the cells (with cubic elements more than two fifths of
-/// all) are eliminated cell by cell, before the rest goes to the sparse solver: static condensation. The elimination
-/// takes no communication, and small dense products are faster than the sparse solver's many small fronts.
+/// A linear system for some components of a space, from which the unknowns inside of the cells (with cubic elements
+/// more than two fifths of all) are eliminated cell by cell, before the rest goes to the sparse solver: static
+/// condensation. The elimination takes no communication, and small dense products are faster than the sparse solver's
+/// many small fronts.
 ///
 /// With i the inner and o the other unknowns of a cell, A_oo − A_oi A_ii⁻¹ A_io and r_o − A_oi A_ii⁻¹ r_i are
 /// assembled, and then x_i = A_ii⁻¹ (r_i − A_io x_o).
@@ -19,7 +20,8 @@ class CondensedSystem {
   public:
     using Cell = dealii::DoFHandler<2>::active_cell_iterator;
 
-    CondensedSystem(MPI_Comm communicator, std::string name);
+    /// `components` ascend.
+    CondensedSystem(MPI_Comm communicator, std::string name, std::vector<unsigned int> components);
 
     /// Allocates for the present mesh.
     void reinit(const Space& space);
@@ -27,13 +29,14 @@ class CondensedSystem {
     void start();
     /// Zero right-hand side alone: add() all own cells, then apply_factors().
     void start_right_hand_side() { system_.start_right_hand_side(); }
-    /// A cell's n × n matrix and n right-hand sides, in its own numbering.
-    void add(const Cell& cell, const dealii::FullMatrix<double>& matrix, const dealii::Vector<double>& right_hand_side);
-    /// The right-hand side alone.
+    /// A cell's n × n matrix, of the whole space and in the cell's numbering; read are the components' rows and
+    /// columns.
+    void add(const Cell& cell, const dealii::FullMatrix<double>& matrix);
+    /// A cell's n right-hand sides. After its matrix.
     void add(const Cell& cell, const dealii::Vector<double>& right_hand_side);
 
-    /// As of SubdomainSystem, with its errors, also when the block of a cell's inner unknowns is singular; ghost values
-    /// of `solution` are updated.
+    /// As of SubdomainSystem, with its errors, also when the block of a cell's inner unknowns is singular; the
+    /// components of `solution` are set and all its ghost values updated.
     void use(Precision precision) { system_.use(precision); }
     [[nodiscard]] Precision precision() const { return system_.precision(); }
     void forget_factors() { system_.forget_factors(); }
@@ -58,8 +61,10 @@ class CondensedSystem {
     void expand(const Space& space, Vector& solution);
 
     std::string name_;
+    std::vector<unsigned int> components_;
     SubdomainSystem system_;
-    unsigned int n_outer_ = 0, n_inner_ = 0;  // unknowns of a cell; the outer ones come first
+    std::vector<unsigned int> in_cell_;       // the components' unknowns in a cell's numbering, of which
+    unsigned int n_outer_ = 0, n_inner_ = 0;  // the outer ones come first
     std::vector<Elimination> cells_;          // own ones
     std::vector<std::size_t> positions_;      // in cells_, by the active cell's index
     bool undetermined_ = false;               // inner unknowns of an own cell

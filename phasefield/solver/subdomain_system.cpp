@@ -100,9 +100,8 @@ void SubdomainSystem::start() {
     right_hand_side_ = 0;
 }
 
-void SubdomainSystem::add(std::size_t cell, const dealii::FullMatrix<double>& matrix,
-                          const dealii::Vector<double>& right_hand_side) {
-    constraints_.distribute_local_to_global(matrix, right_hand_side, cells_[cell], matrix_, right_hand_side_);
+void SubdomainSystem::add(std::size_t cell, const dealii::FullMatrix<double>& matrix) {
+    constraints_.distribute_local_to_global(matrix, cells_[cell], matrix_);
 }
 
 void SubdomainSystem::add(std::size_t cell, const dealii::Vector<double>& right_hand_side) {

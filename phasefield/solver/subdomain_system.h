@@ -26,7 +26,7 @@ class SubdomainSystem {
     void start();
     /// Zero right-hand side alone: add() all own cells, then apply_factors().
     void start_right_hand_side() { right_hand_side_ = 0; }
-    void add(std::size_t cell, const dealii::FullMatrix<double>& matrix, const dealii::Vector<double>& right_hand_side);
+    void add(std::size_t cell, const dealii::FullMatrix<double>& matrix);
     void add(std::size_t cell, const dealii::Vector<double>& right_hand_side);
 
     /// Of the next factors; single at first.

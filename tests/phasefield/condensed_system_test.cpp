@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "phasefield/fem/mesh.h"
+#include "phasefield/solver/block_gauss_seidel.h"
 #include "phasefield/solver/condensed_system.h"
 #include "phasefield/solver/mumps_ordering.h"
 #include "shared/support/error.h"
@@ -27,7 +28,7 @@ struct WholeAndCondensed {
           mesh(coarse_mesh(small_case(), communicator)),
           space(*mesh, {3, 2}),
           whole(communicator, "whole"),
-          condensed(communicator, "condensed") {
+          condensed(communicator, "condensed", {0, 1}) {
         for (const auto& cell : mesh->active_cell_iterators())
             if (cell->is_locally_owned() && cell->center()[0] < 12 && std::abs(cell->center()[1] - 20) < 8)
                 cell->set_refine_flag();
@@ -84,7 +85,8 @@ struct WholeAndCondensed {
             const auto matrix = cell_matrix(cell);
             const auto rhs = cell_right_hand_side(cell, 0);
             space.constraints.distribute_local_to_global(matrix, rhs, indices, whole.matrix, whole.right_hand_side);
-            condensed.add(cell, matrix, rhs);
+            condensed.add(cell, matrix);
+            condensed.add(cell, rhs);
         });
         whole.solve(space.constraints, expected);
         condensed.solve(space, found);
@@ -149,7 +151,8 @@ std::string failure(WholeAndCondensed& problem, double factor) {
         problem.on_own_cells([&](const auto& cell, const auto& /*indices*/) {
             auto matrix = problem.cell_matrix(cell);
             matrix *= factor;
-            problem.condensed.add(cell, matrix, problem.cell_right_hand_side(cell, 0));
+            problem.condensed.add(cell, matrix);
+            problem.condensed.add(cell, problem.cell_right_hand_side(cell, 0));
         });
         Vector solution = problem.space.vector();
         problem.condensed.solve(problem.space, solution);
@@ -279,6 +282,39 @@ TEST_CASE("a condensed system has the same solution on several processes", "[con
     CHECK(problem.difference() < single_round_off);
     CHECK(problem.refined_difference() < round_off);
     CHECK(problem.difference_with_old_factors() < single_round_off);
+}
+
+TEST_CASE("a sweep is exact where the first block does not feel the second", "[condensation][mpi]") {
+    WholeAndCondensed problem(MPI_COMM_WORLD, true);
+    const Space& space = problem.space;
+    BlockGaussSeidel sweep(MPI_COMM_WORLD, "sweep", {0}, {1});
+    sweep.reinit(space);
+    sweep.start();
+    problem.whole.start();
+    problem.on_own_cells([&](const auto& cell, const auto& indices) {
+        auto matrix = problem.cell_matrix(cell);
+        for (const unsigned int i : space.local[0])
+            for (const unsigned int k : space.local[1]) matrix(i, k) = 0;
+        const auto rhs = problem.cell_right_hand_side(cell, 0);
+        sweep.add(cell, matrix, rhs);
+        space.constraints.distribute_local_to_global(matrix, rhs, indices, problem.whole.matrix,
+                                                     problem.whole.right_hand_side);
+    });
+    Vector expected = space.vector(), found = space.vector();
+    problem.whole.solve(space.constraints, expected);
+    sweep.solve(space, found);
+    CHECK(WholeAndCondensed::distance(expected, found) < single_round_off);
+
+    problem.whole.right_hand_side = 0;
+    sweep.start_right_hand_side();
+    problem.on_own_cells([&](const auto& cell, const auto& indices) {
+        const auto rhs = problem.cell_right_hand_side(cell, 0.4);
+        sweep.add(cell, rhs);
+        space.constraints.distribute_local_to_global(rhs, indices, problem.whole.right_hand_side);
+    });
+    problem.whole.apply_factors(space.constraints, expected);
+    sweep.apply_factors(space, found);
+    CHECK(WholeAndCondensed::distance(expected, found) < single_round_off);
 }
 
 TEST_CASE("a condensed system survives singular and not finite matrices", "[condensation]") {

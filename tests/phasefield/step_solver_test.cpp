@@ -67,7 +67,7 @@ TEST_CASE("Anderson's acceleration finds the directions in which the iteration f
             return largest;
         };
         distance(0);
-        AndersonMixing mixing(space, increment, {0, 0}, counted);
+        AndersonMixing mixing(space, {0, 0}, counted);
         // Four different rates: like GMRES, the method ends after as many changes, and one iteration to see the first.
         for (int k = 0; k < 5; ++k) {
             CHECK(distance(k) > 1e-6);

@@ -130,7 +130,7 @@ class CellEquations {
 /// The loop over cells: residual, and the Jacobian when Number carries derivatives.
 template <class Number>
 void assemble_cells(const StepProblem& problem, const std::vector<PatternEntry>& pattern, const Vector& iterate,
-                    CondensedSystem& system) {
+                    BlockGaussSeidel& system) {
     constexpr bool with_jacobian = std::is_same_v<Number, FeatureDual>;
     const Space& space = problem.space;
     CellEquations equations(problem, iterate);
@@ -176,12 +176,12 @@ void assemble_cells(const StepProblem& problem, const std::vector<PatternEntry>&
 }  // namespace
 
 void assemble(const StepProblem& problem, const std::vector<PatternEntry>& pattern, const Vector& iterate,
-              CondensedSystem& system) {
+              BlockGaussSeidel& system) {
     system.start();
     assemble_cells<FeatureDual>(problem, pattern, iterate, system);
 }
 
-void assemble_residual(const StepProblem& problem, const Vector& iterate, CondensedSystem& system) {
+void assemble_residual(const StepProblem& problem, const Vector& iterate, BlockGaussSeidel& system) {
     system.start_right_hand_side();
     assemble_cells<double>(problem, {}, iterate, system);
 }

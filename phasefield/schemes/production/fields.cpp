@@ -136,6 +136,11 @@ const std::array<Unknown, n_fields>& unknowns() {
     return table;
 }
 
+bool carried_along(unsigned int field, const Parameters& p) {
+    const bool of_molecules = field == molecule_density || field == molecule_potential;
+    return field == membrane_stretch || (of_molecules && !energetically_coupled(p.molecules));
+}
+
 std::vector<unsigned int> field_degrees(const PhaseFieldParameters& p) {
     std::vector<unsigned int> degrees;
     for (const auto& unknown : unknowns()) degrees.push_back(unknown.degree(p));

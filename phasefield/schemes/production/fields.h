@@ -64,6 +64,10 @@ struct Unknown {
     bool (*switched_off)(const Parameters&) = nullptr;
 };
 
+/// What flow and membrane carry along: s, and molecules that the energy does not drive. Within a step they and the
+/// other fields feel each other so little that they are solved for in turn.
+bool carried_along(unsigned int field, const Parameters& parameters);
+
 /// In the order of Field; the space, its constraints, the start, the solver and the output read this table.
 const std::array<Unknown, n_fields>& unknowns();
 

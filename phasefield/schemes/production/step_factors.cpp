@@ -9,7 +9,17 @@ namespace {
 
 constexpr double farthest = constant("farthest");
 
+std::vector<unsigned int> fields_that_are(bool carried, const Parameters& parameters) {
+    std::vector<unsigned int> out;
+    for (unsigned int field = 0; field < n_fields; ++field)
+        if (carried_along(field, parameters) == carried) out.push_back(field);
+    return out;
+}
+
 }  // namespace
+
+StepFactors::StepFactors(const Parameters& parameters, MPI_Comm communicator)
+    : system_(communicator, "coupled", fields_that_are(false, parameters), fields_that_are(true, parameters)) {}
 
 bool StepFactors::serve(const StepProblem& problem, const Vector& solution) const {
     if (!system_.has_factors()) return false;

@@ -1,15 +1,15 @@
 #pragma once
 
 #include "phasefield/schemes/production/assembly.h"
-#include "phasefield/solver/condensed_system.h"
+#include "phasefield/solver/block_gauss_seidel.h"
 
 namespace endoflow::phasefield::production {
 
-/// Factors of the coupled equations' Jacobian. Making them costs as much as twenty-five to thirty solutions with them,
-/// so those of an earlier step are kept.
+/// Factors of the equations' Jacobian in two blocks, of the fields that are carried along and of the others. Making
+/// them costs as much as twenty solutions with them, so those of an earlier step are kept.
 class StepFactors {
   public:
-    explicit StepFactors(MPI_Comm communicator) : system_(communicator, "coupled") {}
+    StepFactors(const Parameters& parameters, MPI_Comm communicator);
 
     /// The mesh has changed: there are none.
     void reinit(const Space& space) { system_.reinit(space); }
@@ -39,7 +39,7 @@ class StepFactors {
 
   private:
     std::vector<PatternEntry> pattern_ = equation_pattern();
-    CondensedSystem system_;
+    BlockGaussSeidel system_;
     Vector origin_;  // where they were made
     unsigned int made_ = 0, full_ = 0;
 };

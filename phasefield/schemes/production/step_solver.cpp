@@ -38,7 +38,7 @@ void Backoff::note(bool failed) {
 }
 
 StepSolver::StepSolver(const Parameters& parameters, MPI_Comm communicator, double wanted)
-    : factors_(communicator), wanted_(wanted) {
+    : factors_(parameters, communicator), wanted_(wanted) {
     const Scales by = scales(parameters);
     for (const auto& unknown : unknowns()) least_.push_back(round_off * unknown.size(by));
 }
@@ -57,7 +57,7 @@ StepSolver::Ending StepSolver::iterate(const StepProblem& problem, Vector& solut
         changes_ += text;
         if (iteration == 0) first = std::max(change, wanted_);
         if (!std::isfinite(change) || change > most_divergence * first) return Ending::diverged;
-        if (!mixing) mixing.emplace(problem.space, step, least_, presence(problem.space, problem.numbers, solution));
+        if (!mixing) mixing.emplace(problem.space, least_, presence(problem.space, problem.numbers, solution));
         mixing->advance(solution, step);
         const double contraction = change / last;
         const bool foreseen = newton != nullptr && iteration > 0 && contraction < fast_contraction;
