@@ -2,6 +2,7 @@
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -9,18 +10,18 @@
 
 namespace endoflow::phasefield {
 
-/// A linear system on a space, solved approximately by a sweep of the block Gauss–Seidel method: the components of one
-/// block as if those of the other were zero, then the others,
-///     x₁ = A₁₁⁻¹ r₁,   x₂ = A₂₂⁻¹ (r₂ − A₂₁ x₁).
-/// The factors of two blocks are smaller than those of the whole; iterations that find the residual of the whole make
-/// up for the rest.
+/// A linear system on a space, solved approximately by a sweep of the block Gauss–Seidel method: one block of
+/// components after the other as if those to come were zero,
+///     x_k = A_kk⁻¹ (r_k − Σ_{l<k} A_kl x_l).
+/// The factors of the blocks are smaller than those of the whole; iterations that find the residual of the whole make
+/// up for the rest. With one block the solution is exact.
 class BlockGaussSeidel {
   public:
     using Cell = CondensedSystem::Cell;
 
-    /// `first` and `second` are the space's components, each ascending.
-    BlockGaussSeidel(MPI_Comm communicator, const std::string& name, std::vector<unsigned int> first,
-                     std::vector<unsigned int> second);
+    /// `blocks`: the space's components, each in one block, ascending there. No block is empty.
+    BlockGaussSeidel(MPI_Comm communicator, const std::string& name,
+                     const std::vector<std::vector<unsigned int>>& blocks);
 
     /// Allocates for the present mesh.
     void reinit(const Space& space);
@@ -35,36 +36,31 @@ class BlockGaussSeidel {
 
     /// As of CondensedSystem.
     void use(Precision precision);
-    [[nodiscard]] Precision precision() const { return first_.precision(); }
+    [[nodiscard]] Precision precision() const { return blocks_.front().system.precision(); }
     void forget_factors();
-    [[nodiscard]] bool has_factors() const { return first_.has_factors() && second_.has_factors(); }
+    [[nodiscard]] bool has_factors() const;
     void solve(const Space& space, Vector& solution);
     void apply_factors(const Space& space, Vector& solution);
-    /// Of both blocks.
-    [[nodiscard]] SubdomainSystem::Index shared_unknowns() const {
-        return first_.shared_unknowns() + second_.shared_unknowns();
-    }
+    /// Of all blocks.
+    [[nodiscard]] SubdomainSystem::Index shared_unknowns() const;
 
   private:
-    /// A block's unknowns in a cell's numbering, with room for their values.
     struct Block {
-        std::vector<unsigned int> components, in_cell;
-        dealii::Vector<float> values;
-    };
-    /// What is kept of a cell.
-    struct Coupling {
-        dealii::LAPACKFullMatrix<float> A_21;
-        dealii::Vector<double> residual;  // r
+        Block(MPI_Comm communicator, const std::string& name, const std::vector<unsigned int>& wanted)
+            : components(wanted), system(communicator, name, wanted) {}
+
+        std::vector<unsigned int> components;
+        CondensedSystem system;
+        std::vector<unsigned int> in_cell, earlier;  // unknowns in a cell's numbering: its own, those of earlier blocks
+        std::vector<dealii::LAPACKFullMatrix<float>> coupling;  // A_kl of own cells, l = 0 … k − 1 side by side
     };
 
-    /// The right-hand side of the second system, from the solution of the first.
-    void hand_over(const Space& space, const Vector& solution);
+    /// The right-hand side of a block's system, from the solutions of the earlier ones.
+    void hand_over(const Space& space, const Vector& solution, Block& block);
 
-    Block one_, two_;
-    CondensedSystem first_, second_;
-    std::vector<Coupling> cells_;         // own ones
-    std::vector<std::size_t> positions_;  // in cells_, by the active cell's index
-    dealii::Vector<double> cell_values_;
+    std::deque<Block> blocks_;                       // systems cannot be moved
+    std::vector<dealii::Vector<double>> residuals_;  // r of own cells, less the parts of earlier blocks
+    std::vector<std::size_t> positions_;             // of own cells there, by the active cell's index
 };
 
 }  // namespace endoflow::phasefield

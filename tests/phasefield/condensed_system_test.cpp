@@ -287,7 +287,7 @@ TEST_CASE("a condensed system has the same solution on several processes", "[con
 TEST_CASE("a sweep is exact where the first block does not feel the second", "[condensation][mpi]") {
     WholeAndCondensed problem(MPI_COMM_WORLD, true);
     const Space& space = problem.space;
-    BlockGaussSeidel sweep(MPI_COMM_WORLD, "sweep", {0}, {1});
+    BlockGaussSeidel sweep(MPI_COMM_WORLD, "sweep", {{0}, {1}});
     sweep.reinit(space);
     sweep.start();
     problem.whole.start();

@@ -137,8 +137,7 @@ const std::array<Unknown, n_fields>& unknowns() {
 }
 
 bool carried_along(unsigned int field, const Parameters& p) {
-    const bool of_molecules = field == molecule_density || field == molecule_potential;
-    return field == membrane_stretch || (of_molecules && !energetically_coupled(p.molecules));
+    return (field == molecule_density || field == molecule_potential) && !energetically_coupled(p.molecules);
 }
 
 std::vector<unsigned int> field_degrees(const PhaseFieldParameters& p) {

@@ -64,7 +64,7 @@ struct Unknown {
     bool (*switched_off)(const Parameters&) = nullptr;
 };
 
-/// What flow and membrane carry along: s, and molecules that the energy does not drive. Within a step they and the
+/// c and μ of molecules that the energy does not drive: the membrane carries them along. Within a step they and the
 /// other fields feel each other so little that they are solved for in turn.
 bool carried_along(unsigned int field, const Parameters& parameters);
 

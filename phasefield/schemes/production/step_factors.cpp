@@ -9,17 +9,19 @@ namespace {
 
 constexpr double farthest = constant("farthest");
 
-std::vector<unsigned int> fields_that_are(bool carried, const Parameters& parameters) {
-    std::vector<unsigned int> out;
+/// What is carried along comes last, so that its balance holds after a sweep.
+std::vector<std::vector<unsigned int>> blocks_of_fields(const Parameters& parameters) {
+    std::vector<std::vector<unsigned int>> out(2);
     for (unsigned int field = 0; field < n_fields; ++field)
-        if (carried_along(field, parameters) == carried) out.push_back(field);
+        out[carried_along(field, parameters) ? 1 : 0].push_back(field);
+    if (out.back().empty()) out.pop_back();
     return out;
 }
 
 }  // namespace
 
 StepFactors::StepFactors(const Parameters& parameters, MPI_Comm communicator)
-    : system_(communicator, "coupled", fields_that_are(false, parameters), fields_that_are(true, parameters)) {}
+    : system_(communicator, "coupled", blocks_of_fields(parameters)) {}
 
 bool StepFactors::serve(const StepProblem& problem, const Vector& solution) const {
     if (!system_.has_factors()) return false;

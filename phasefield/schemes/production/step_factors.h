@@ -5,7 +5,7 @@
 
 namespace endoflow::phasefield::production {
 
-/// Factors of the equations' Jacobian in two blocks, of the fields that are carried along and of the others. Making
+/// Factors of the equations' Jacobian, in two blocks where some fields are carried along by the others. Making
 /// them costs as much as twenty solutions with them, so those of an earlier step are kept.
 class StepFactors {
   public:
