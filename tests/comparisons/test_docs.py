@@ -261,22 +261,5 @@ class Checker(unittest.TestCase):
         self.assertIn("did you mean", check.check_case(Block(here, "toml", "", "[time]\nendd = 2\n"), build))
 
 
-class Results(unittest.TestCase):
-    """The tables of the results' pages come from run directories."""
-
-    def test_differences(self):
-        import synthetic
-
-        with tempfile.TemporaryDirectory() as scratch:
-            runs = synthetic.write_pair(Path(scratch), count=9)
-            command = [sys.executable, str(TOOLS / "results.py"), "differences", *map(str, runs), "--times", "0.2,99"]
-            process = subprocess.run(command, capture_output=True, text=True)
-        self.assertEqual((process.returncode, process.stderr), (0, ""))
-        head, _, row, outside = process.stdout.splitlines()
-        self.assertEqual(head, "| time, µs | area gain | volume | energy | height | neck, sharp, nm |")
-        self.assertRegex(row, r"^\| 0\.2 (\| [+−]\d+\.\d\d % ){4}\|")
-        self.assertEqual(outside, "| 99 | – | – | – | – | – |")
-
-
 if __name__ == "__main__":
     unittest.main()
