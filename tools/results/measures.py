@@ -4,6 +4,7 @@ import numpy as np
 from scipy.optimize import curve_fit
 
 import endoflow
+from comparisons.measures.convergence import extrapolated
 from comparisons.paper.patch_sweep import morphology, neck_index
 
 
@@ -201,6 +202,32 @@ def limits(rows):
     ]
 
 
+#: Quantities of the smooth case whose limits are told, with their times, µs.
+SMOOTH = (
+    ("budding_time", 1.0), ("neck_radius", 0.5), ("neck_radius", 1.0), ("bud_diameter", 1.0), ("membrane_area", 0.5),
+    ("volume_extracellular", 0.25), ("volume_extracellular", 1.0), ("bending_energy", 0.5), ("bending_energy", 1.0),
+)  # fmt: skip
+
+
+def smooth_limits(rows):
+    """Limits v0 + a ε^p through the three thinnest layers, relative to the sharp engine, and the order between the two thinnest."""
+    found = []
+    for quantity, time in SMOOTH:
+        thin = sorted((row for row in rows if row["time_us"] == time), key=lambda row: row["epsilon_nm"])[:3]
+        sharp_column = next(name for name in thin[0] if name.startswith(f"{quantity}_sharp"))
+        unit, sharp = sharp_column.removeprefix(f"{quantity}_sharp_"), thin[0][sharp_column]
+        epsilon = np.array([row["epsilon_nm"] for row in thin])
+        values = np.array([row[f"{quantity}_{unit}"] for row in thin])
+        fit, _ = extrapolated(epsilon, values)
+        errors = np.abs(values - sharp)
+        order = np.log(errors[1] / errors[0]) / np.log(epsilon[1] / epsilon[0])
+        found.append(
+            {"quantity": f"{quantity}_{unit}", "time_us": f"{time:g}", "sharp": sharp, "order": float(order)}
+            | {"limit": fit.value / sharp - 1 if fit else None, "power": fit.order if fit else None}
+        )
+    return found
+
+
 def local_orders(rows, name):
     """Orders of a column's absolute values between neighbouring ε of rows, from the largest on."""
     epsilon, errors = (np.abs([float(row[key]) for row in rows]) for key in ("epsilon_nm", name))
@@ -210,7 +237,9 @@ def local_orders(rows, name):
 def speed(run, fold_nm):
     """How far a growing coat passes the fold of stationary shapes: coat of equal mass where the neck is 5 nm wide."""
     budding = run.event_time("budding")
-    radius = float(np.sqrt(at(run, "molecule_mass_nm2", budding) / np.pi))
+    mass = float(np.interp(budding, run.history["time_us"], run.history["molecule_mass_nm2"]))
+    edge = run.parameters["molecules"]["interface_width"]
+    radius = float(np.sqrt(mass / np.pi - (np.pi * edge) ** 2 / 6))  # of the profile ½ (1 − tanh((r − r_c)/(√2 edge)))
     balance = run.record["accuracy"]["energy-balance"]["largest"]
     return {"budding_us": budding, "coat_nm": radius, "beyond_nm": radius - fold_nm, "cpu_s": run.record["cpu_s"], "balance": balance}
 
@@ -228,7 +257,7 @@ def noise(directory, times):
 def noise_of_budding(directory):
     """Budding time and its spread, µs."""
     found = endoflow.load_modes(directory).noise
-    return {"budding_us": found.budding, "spread_us": found.budding_spread, "linear_until_us": found.linear_until}
+    return {"budding_us": found.budding, "spread_us": found.budding_spread, "spread": found.budding_spread / found.budding, "linear_until_us": found.linear_until}
 
 
 def perturbations(directory, initials):

@@ -51,7 +51,7 @@ def origin_text(marker):
     """One sentence on what made a table."""
     found = stored(marker["table"])
     if found.recorded:
-        return f"Recorded at commit {found.recorded}."
+        return f"Recorded at commit {found.recorded}, not made anew since."
     return f"Numerics revision {found.revision}, commit {found.about[tables.COMMIT]}."
 
 
@@ -91,6 +91,6 @@ def typed_by_hand():
 
 
 def long_numbers(text):
-    """The decimal numbers in a text that have four digits or more, leading zeros apart."""
-    found = re.findall(r"(?<![\d.])\d+\.\d+(?![\d.])", text)
-    return [number for number in found if len(number.replace(".", "").lstrip("0")) >= 4]
+    """The decimal numbers of four digits or more in a text, leading zeros apart, and those whose thousands are set off."""
+    found = re.findall(r"(?<![\d.])\d+\.\d+(?![\d.])|(?<![\d.] )(?<![\d.])\d{1,3}(?: \d{3})+(?![\d.])", text)
+    return [number for number in found if len(re.sub(r"[. ]", "", number).lstrip("0")) >= 4]

@@ -427,7 +427,20 @@ def smooth():
         found = made.csv("converge", "converge.csv")
         return [{"time_us": row.pop("time_us"), "epsilon_nm": row.pop("epsilon_nm")} | row for row in found]
 
-    yield Study("smooth-case", 30, runs, (Table("smooth-case", (), rows),))
+    columns = (
+        Column("quantity", "quantity"),
+        Column("time_us", "time, µs"),
+        Column("sharp", "sharp", ".6g"),
+        Column("order", "order", ".2f"),
+        Column("limit", "limit", "+.2%"),
+        Column("power", "p", ".1f"),
+    )
+
+    def limits(made):
+        return measures.smooth_limits(made.rows("smooth-case"))
+
+    tables = (Table("smooth-case", (), rows), Table("smooth-case-limits", columns, limits, derived=True))
+    yield Study("smooth-case", 30, runs, tables)
 
 
 #: The items of `endoflow reproduce` whose tables the pages use: {item: table}.
@@ -441,8 +454,26 @@ def paper():
     """The paper's items as `endoflow reproduce` makes them."""
     runs = {"items": f"endoflow reproduce {' '.join(ITEMS)} --full --jobs 1"}
 
+    columns = {
+        "table2": (
+            Column("parameter", "column"),
+            Column("printed_value", "value", ".4g"),
+            Column("unit", "unit"),
+            Column("time_us", "at, µs", ".3g"),
+            Column("paper_change_percent", "paper, %", ".2f"),
+            Column("signed_change_percent", "here, %", "+.2f"),
+        ),
+        "timescale": (
+            Column("reading", "reading"),
+            Column("meaning", "meaning"),
+            Column("area_at_0.5_us_nm2", "area at 0.5 µs, nm²", ",.0f"),
+            Column("slowdown", "paper slower by", ".3g"),
+            Column("budding_time_us", "neck of 5 nm at, µs", ".3g"),
+        ),
+    }
+
     def table(item, name):
-        return Table(f"paper-{name}", (), lambda made: made.csv("items", f"{item}/{item}.csv"))
+        return Table(f"paper-{name}", columns.get(name, ()), lambda made: made.csv("items", f"{item}/{item}.csv"))
 
     yield Study("paper", 600, runs, tuple(table(*one) for one in ITEMS.items()))
 
