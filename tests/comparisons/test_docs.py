@@ -94,8 +94,8 @@ class Pages(unittest.TestCase):
         self.assertEqual(sorted(names - linked - {"index.md"}), [])
 
     def test_every_case_is_listed(self):
-        text = (locations.ROOT / "docs" / "case-files.md").read_text(encoding="utf-8")
-        cases = sorted(path.name for path in (locations.ROOT / "cases").iterdir() if path.is_file())
+        text = (locations.ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
+        cases = sorted(path.stem for path in (locations.ROOT / "cases").iterdir() if path.is_file())
         self.assertEqual([name for name in cases if f"`{name}`" not in text], [])
 
     @unittest.skipUnless(PROGRAM and Path(PROGRAM).exists(), "ENDOFLOW_PROGRAM names no program")

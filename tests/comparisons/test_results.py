@@ -14,7 +14,7 @@ import locations
 
 sys.path.insert(0, str(locations.ROOT / "tools"))
 
-from results import command, figures, ink, measures, pages, places, studies, tables, writing  # noqa: E402
+from results import command, figures, ink, measures, pages, places, studies, study, tables, writing  # noqa: E402
 
 REFRESH = "run `make results` (or `python3 tools/results build --pages` when no run is to be made anew)"
 
@@ -133,13 +133,13 @@ class Tables(unittest.TestCase):
             pages.filled("<!-- value one/c/budding_us -->1<!-- end -->", columns)
 
     def test_studies_that_have_to_run(self):
-        study = studies.Study("one", 1, {"a": "endoflow run x"}, (studies.Table("one", (), None),))
+        one = study.Study("one", 1, {"a": "endoflow run x"}, (study.Table("one", (), None),))
         with mock.patch.object(command, "numerics_revision", return_value=3):
-            self.assertEqual(command.state(study), "")
-            other = studies.Study("one", 1, {"a": "endoflow run y"}, study.tables)
+            self.assertEqual(command.state(one), "")
+            other = study.Study("one", 1, {"a": "endoflow run y"}, one.tables)
             self.assertEqual(command.state(other), "made by other commands")
         with mock.patch.object(command, "numerics_revision", return_value=4):
-            self.assertEqual(command.state(study), "numerics revision 3, today's is 4")
+            self.assertEqual(command.state(one), "numerics revision 3, today's is 4")
 
 
 class Runs(unittest.TestCase):
@@ -153,14 +153,14 @@ class Runs(unittest.TestCase):
                 'echo "{\\"provenance\\": {\\"git\\": \\"abc\\"}}" > "$2/run.json"\n[ ! -e "$(dirname "$0")/fails" ]\n'
             )
             program.chmod(0o755)
-            study = studies.Study("one", 1, {"a": "endoflow run x"}, ())
+            one = study.Study("one", 1, {"a": "endoflow run x"}, ())
             (Path(scratch) / "fails").touch()
             with self.assertRaisesRegex(command.Failed, "exit code 1"):
-                command.make_run(study, "a", Path(scratch))
+                command.make_run(one, "a", Path(scratch))
             (Path(scratch) / "fails").unlink()
             for _ in range(2):
-                command.make_run(study, "a", Path(scratch))
-            command.make_run(studies.Study("one", 1, {"a": "endoflow run y"}, ()), "a", Path(scratch))
+                command.make_run(one, "a", Path(scratch))
+            command.make_run(study.Study("one", 1, {"a": "endoflow run y"}, ()), "a", Path(scratch))
             calls = (Path(scratch) / "calls").read_text().splitlines()
         self.assertEqual([line.split(" -o")[0] for line in calls], ["run x", "run x", "run y"])
         self.assertEqual([line.endswith("--restart") for line in calls], [False, True, False])

@@ -19,6 +19,9 @@ VALUE = re.compile(r"<!-- value (?P<table>[\w-]+)/(?P<row>[^\s/]+)/(?P<column>\w
 TABLE = re.compile(r"<!-- table (?P<table>[\w-]+) -->\n(?P<text>.*?)<!-- end of table -->", re.S)
 ORIGIN = re.compile(r"<!-- origin (?P<table>[\w-]+) -->(?P<text>.*?)<!-- end -->")
 
+#: A block of code, in which markers are only shown.
+BLOCK = re.compile(r"(^```.*?^```$)", re.S | re.M)
+
 
 class UnknownValue(Exception):
     """A marker names what no table has."""
@@ -62,9 +65,12 @@ def filled(text, columns):
         start, end = marker.span("text")
         return marker[0][: start - marker.start()] + inside + marker[0][end - marker.start() :]
 
-    text = VALUE.sub(lambda marker: put(marker, value_text(marker)), text)
-    text = ORIGIN.sub(lambda marker: put(marker, origin_text(marker)), text)
-    return TABLE.sub(lambda marker: put(marker, f"\n{table_text(marker, columns)}\n\n"), text)
+    def fill(part):
+        part = VALUE.sub(lambda marker: put(marker, value_text(marker)), part)
+        part = ORIGIN.sub(lambda marker: put(marker, origin_text(marker)), part)
+        return TABLE.sub(lambda marker: put(marker, f"\n{table_text(marker, columns)}\n\n"), part)
+
+    return "".join(part if part.startswith("```") else fill(part) for part in BLOCK.split(text))
 
 
 def fill_all(columns):
@@ -83,7 +89,7 @@ def typed_by_hand():
     """[(page, number)]: numbers of four digits and more that stand between markers somewhere, and elsewhere without."""
     marked, bare = set(), []
     for page in all_pages():
-        text = re.sub(r"^```.*?^```", "", page.read_text("utf-8"), flags=re.S | re.M)
+        text = BLOCK.sub("", page.read_text("utf-8"))
         marked |= {number for marker in VALUE.finditer(text) for number in long_numbers(marker["text"])}
         text = TABLE.sub("", ORIGIN.sub("", VALUE.sub("", text)))
         bare += [(page, number) for number in long_numbers(text)]
