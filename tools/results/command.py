@@ -17,13 +17,16 @@ import time
 from pathlib import Path
 
 import endoflow
-from results import tables
+from results import figures, pages, tables
 from results.writing import as_number
 from results.places import ROOT, RUNS, numerics_revision
 from results.studies import COLUMNS, STUDIES
 
 #: Written into a run's directory before its command starts, and when it is done.
 BEGUN, DONE = "begun.json", "done.json"
+
+#: Exit code of a run whose solver stopped.
+SOLVER_STOPPED = 3
 
 
 class Failed(Exception):
@@ -95,7 +98,7 @@ def make_run(study, label, build):
     environment = {**os.environ, "PATH": f"{build}:{os.environ['PATH']}", "MPLBACKEND": "Agg"}
     with (directory.with_name(f"{label}.log")).open("w", encoding="utf-8") as log:
         code = subprocess.run(words, cwd=ROOT, env=environment, stdout=log, stderr=subprocess.STDOUT, check=False).returncode
-    if code:
+    if code and not (code == SOLVER_STOPPED and study.failures_are_results):
         raise Failed(f"{command}: exit code {code}, see {log.name}")
     record = provenance(directory)
     if record.get("numerics_revision", numerics_revision()) != numerics_revision():
@@ -152,8 +155,6 @@ def conduct(studies, build):
 
 def refresh():
     """Derived tables, figures and pages."""
-    from results import figures, pages
-
     write_derived()
     figures.draw_all()
     for page in pages.fill_all(COLUMNS):
@@ -179,5 +180,9 @@ def main():
     except Failed as failure:
         print(f"make results: {failure}", file=sys.stderr)
         return 1
-    refresh()
+    try:
+        refresh()
+    except pages.UnknownValue as unknown:
+        print(f"make results: {unknown}", file=sys.stderr)
+        return 1
     return 0

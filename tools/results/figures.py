@@ -130,7 +130,7 @@ def radii():
     """Budding time, diameter and neck against the coat's radius."""
     radius, budding, neck, diameter, end = columns("twelve-radii", "radius_nm", "budding_us", "neck_nm", "diameter_nm", "end_us")
     figure, grid = ink.panels(1, 3, (7.6, 3))
-    for axes, values, title in zip(grid, (budding, diameter, neck), ("budding time (µs)", "diameter at 20 µs (nm)", "neck at 20 µs or closed (nm)")):
+    for axes, values, title in zip(grid, (budding, diameter, neck), ("budding time (µs)", "diameter at 20 µs (nm)", "neck then (nm)")):
         axes.plot(radius, values, **ink.SHARP_LINE)
         axes.set_title(title)
         axes.set_xlabel("coat's radius (nm)")
@@ -205,6 +205,24 @@ def energy():
     return figure
 
 
+def folds():
+    """A coat that snaps through, and the force of a tube that is pulled."""
+    radius, height = columns("snap-through-branch", "radius_nm", "height_nm")
+    length, force = columns("tube-branch", "length_nm", "force_pN")
+    figure, (left, right) = ink.panels(1, 2, (6.8, 2.9))
+    left.plot(radius, height, color=ink.SHARP[0])
+    for value in list(tables.read("snap-through").rows[-1].values())[1:]:
+        nearest = np.argmin(np.abs(radius - value))
+        left.plot(radius[nearest], height[nearest], marker="o", color=ink.DIFFUSE[0])
+    left.set_xlabel("coat's radius (nm)")
+    left.set_title("height (nm)")
+    right.plot(length, force, color=ink.SHARP[0])
+    right.axhline(tables.read("tube").rows[0]["plateau_pN"], color=ink.FAINT[0], linewidth=1, linestyle=":")
+    right.set_xlabel("length of the tube (nm)")
+    right.set_title("force (pN)")
+    return figure
+
+
 def attribution():
     """Area at 0.5 µs from the printed numerics to the sharp membrane, one change at a time."""
     rows = [row for row in tables.read("paper-attribution").rows if row["area_nm2"] is not None]
@@ -246,6 +264,7 @@ FIGURES = {
     "vesicle": ("Energy of a prolate vesicle, and differences of the engines", vesicle, ("vesicle",)),
     "mode-gains": ("Growth of perturbations against the coat's radius", mode_gains, ("modes-of-radii",)),
     "noise": ("Neck, height and ellipticity with thermal noise", noise, ("noise",)),
+    "folds": ("A coat that snaps through two folds; the force of a tube", folds, ("snap-through", "snap-through-branch", "tube", "tube-branch")),
     "paper-attribution": ("Area by change of the numerics", attribution, ("paper-attribution",)),
     "paper-mobility": ("Area against the mobility", mobility, ("paper-mobility",)),
 } | SCHEMATICS

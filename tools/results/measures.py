@@ -128,6 +128,25 @@ def chosen_resolution(run, converged):
     }
 
 
+def alarmed(run, reference):
+    """When the energy balance raised the alarm, and the errors of neck and energy before and in all; the larger of both."""
+    alarm = next((alarm.time for alarm in run.alarms if alarm.name == "energy-balance"), None)
+    times = run.history["time_us"]
+    errors = np.zeros_like(times)
+    for column in ("neck_radius_nm", "bending_energy_pN_nm"):
+        off = np.abs(run.history[column] / reference.history_at(column, times) - 1)
+        errors = np.fmax(errors, np.where(np.isfinite(off), off, 0))
+    before = errors if alarm is None else errors[times < alarm]
+    return {
+        "alarm_us": alarm,
+        "before": float(before.max()) if len(before) else None,
+        "balance": float(np.nanmax(run.history["energy_balance_relative"])),
+        "error": float(errors.max()),
+        "end_us": float(times[-1]),
+        "state": run.record["state"],
+    }
+
+
 def patch(run):
     """What Figs. 5 to 7 show of a patch radius, at the end of a run or where its neck closed."""
     end, shape = run.history["time_us"][-1], run.shapes[-1]
@@ -241,7 +260,28 @@ def speed(run, fold_nm):
     edge = run.parameters["molecules"]["interface_width"]
     radius = float(np.sqrt(mass / np.pi - (np.pi * edge) ** 2 / 6))  # of the profile ½ (1 − tanh((r − r_c)/(√2 edge)))
     balance = run.record["accuracy"]["energy-balance"]["largest"]
-    return {"budding_us": budding, "coat_nm": radius, "beyond_nm": radius - fold_nm, "cpu_s": run.record["cpu_s"], "balance": balance}
+    return {"budding_us": budding, "coat_nm": radius, "fold_nm": fold_nm, "beyond_nm": radius - fold_nm, "cpu_s": run.record["cpu_s"], "balance": balance}
+
+
+def tube(run):
+    """How far the force of a tube is from its plateau, relative to it, beyond 300 nm and at its largest length up to 620 nm."""
+    membrane = run.parameters["membrane"]
+    plateau = 2 * np.pi * np.sqrt(membrane["bending_stiffness"] * membrane["rim_tension"])  # of β = b/2, as printed
+    length, off = run.history["bud_height_nm"], run.history["followed_value"] / plateau - 1
+    beyond, last = length > 300, np.flatnonzero(length <= 620)[-1]
+    return {"plateau_pN": float(plateau), "beyond_300": float(off[beyond][np.argmax(np.abs(off[beyond]))]), "at_620": float(off[last])}
+
+
+def branch(run, columns):
+    """The points of a branch of stationary shapes: columns {name: column of history.csv}."""
+    points = len(run.history["followed_value"])
+    return [{"point": f"{i}"} | {name: float(run.history[column][i]) for name, column in columns.items()} for i in range(points)]
+
+
+def folds(run):
+    """Where a branch of stationary shapes folds."""
+    found = [fold["value"] for fold in run.record["notes"]["branch"]["folds"]]
+    return {f"fold_{number}": value for number, value in enumerate(found, start=1)}
 
 
 def noise(directory, times):

@@ -69,6 +69,39 @@ def accuracy():
     )
 
 
+#: Elements of runs that are too coarse, the last one for a coat of 70 nm.
+COARSE = (("80", "36"), ("60", "36"), ("50", "36"), ("40", "36"), ("30", "36"), ("20", "36"), ("80", "70"))
+
+
+def alarms():
+    """Runs with too few elements: what the alarm of the energy balance says of their errors."""
+
+    def command(elements, radius, rest=""):
+        own = f"--set boundary_integral.elements={elements} --set molecules.patch_radius={radius} --set output.shape_interval=20"
+        return f"{SHARP} {own}{rest} --until 20"
+
+    runs = {f"reference-{radius}": command("160", radius, " --set time.tolerance=1e-5") for radius in ("36", "70")}
+    runs |= {f"{elements}-{radius}": command(elements, radius) for elements, radius in COARSE}
+
+    def rows(made):
+        return [
+            {"elements": elements, "radius_nm": radius}
+            | measures.alarmed(made.run(f"{elements}-{radius}"), made.run(f"reference-{radius}"))
+            for elements, radius in COARSE
+        ]
+
+    columns = (
+        Column("elements", "elements"),
+        Column("radius_nm", "r_c, nm"),
+        Column("alarm_us", "alarm at, µs", ".3g"),
+        Column("before", "largest error before", ".2g"),
+        Column("balance", "largest balance", ".2g"),
+        Column("error", "largest error", ".2g"),
+        Column("end_us", "end, µs", ".3g"),
+    )
+    yield Study("alarms", 3, runs, (Table("alarms", columns, rows),), failures_are_results=True)
+
+
 RADII = (20, 24, 28, 32, 36, 38, 40, 44, 48, 52, 56, 60)
 
 
@@ -171,10 +204,6 @@ def noise():
     )
 
 
-#: Fold of the growing coat's stationary shapes, nm, by `endoflow statics` (docs/results/growing-coats.md).
-FOLD = 23.3861
-
-
 def growth():
     """A coat that grows through the fold of its stationary shapes, at three speeds."""
     ends = {"1e-3": 12000, "6e-4": 12000, "2.5e-4": 28000}
@@ -182,6 +211,13 @@ def growth():
         v: f"endoflow run boundary-integral cases/growing-coat.toml {QUIET} --set molecules.edge_speed={v} --until {end}"
         for v, end in ends.items()
     }
+    rest = "--set molecules.exchange=none --set molecules.edge_speed=0 --set molecules.pool_area=0 --continue-in molecules.patch_radius=30"
+    branch = {"fold": f"endoflow statics cases/growing-coat.toml {rest}"}
+
+    def rows(made):
+        fold = measures.folds(made.run("fold"))["fold_1"]
+        return [{"speed_nm_per_us": v} | measures.speed(made.run(v), fold) for v in runs]
+
     columns = (
         Column("speed_nm_per_us", "v, nm/µs"),
         Column("budding_us", "budding, µs", ".1f"),
@@ -190,9 +226,39 @@ def growth():
         Column("cpu_s", "CPU, s", ".0f"),
         Column("balance", "energy balance, at most", ".0e"),
     )
+    yield Study("growth-speeds", 2, branch | runs, (Table("growth-speeds", columns, rows),))
+
+
+def branches():
+    """Stationary shapes: a tube that is pulled, and a coat that grows until it snaps through."""
+    tube = "endoflow statics cases/tube.toml --set domain.height=700 --set domain.radius={} --elements {} --continue-in membrane.pole_force=100"
+    runs = {f"{radius}-{elements}": tube.format(radius, elements) for radius in (80, 200) for elements in (48, 96)}
+    columns = (
+        Column("run", "R, nm, elements"),
+        Column("beyond_300", "beyond 300 nm", "+.2e"),
+        Column("at_620", "at 620 nm", "+.1e"),
+    )
+    shown = {"length_nm": "bud_height_nm", "force_pN": "followed_value"}
     yield Study(
-        "growth-speeds",
-        2,
+        "tube",
+        1,
         runs,
-        (Table("growth-speeds", columns, lambda made: [{"speed_nm_per_us": v} | measures.speed(made.run(v), FOLD) for v in runs]),),
+        (
+            Table("tube", columns, lambda made: [{"run": name} | measures.tube(made.run(name)) for name in runs]),
+            Table("tube-branch", (), lambda made: measures.branch(made.run("80-48"), shown)),
+        ),
+    )
+
+    snap = "endoflow statics cases/snap-through.toml --elements {} --continue-in molecules.patch_radius=85"
+    sizes = {f"{elements}": snap.format(elements) for elements in (24, 48, 96)}
+    folds = (Column("elements", "elements"), Column("fold_1", "first fold, nm", ".8f"), Column("fold_2", "second fold, nm", ".8f"))
+    points = {"radius_nm": "patch_radius_nm", "height_nm": "bud_height_nm", "neck_nm": "neck_radius_nm"}
+    yield Study(
+        "snap-through",
+        1,
+        sizes,
+        (
+            Table("snap-through", folds, lambda made: [{"elements": name} | measures.folds(made.run(name)) for name in sizes]),
+            Table("snap-through-branch", (), lambda made: measures.branch(made.run("48"), points)),
+        ),
     )

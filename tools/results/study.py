@@ -19,12 +19,13 @@ class Table:
 
 @dataclass(frozen=True)
 class Study:
-    """minutes: for which all its runs keep two cores; runs: {label: command}."""
+    """minutes: for which all its runs keep two cores; runs: {label: command}; failures_are_results: a solver may stop."""
 
     name: str
     minutes: float
     runs: dict
     tables: tuple
+    failures_are_results: bool = False
 
 
 QUIET = "--set output.field_interval=0"

@@ -40,10 +40,16 @@ class Stored:
     def row(self, key):
         """The row whose first cell, or whose first two joined by "+", are the key, blanks being underscores. Raises KeyError."""
         for row in self.rows:
-            cells = [str(cell(value)).replace(" ", "_") for value in list(row.values())[:2]]
-            if key in (cells[0], "+".join(cells)):
+            first, second = [*row.values(), None][:2]
+            parts = key.partition("+")
+            if same(key, first) or (same(parts[0], first) and same(parts[2], second)):
                 return row
         raise KeyError(key)
+
+
+def same(key, value):
+    """Whether a part of a marker names a cell: as a number, or as a text whose blanks are underscores."""
+    return as_number(key) == value if isinstance(value, float) else key == str(value).replace(" ", "_")
 
 
 def path(name):
