@@ -86,12 +86,16 @@ def fill_all(columns):
 
 
 def typed_by_hand():
-    """[(page, number)]: numbers of four digits and more that stand between markers somewhere, and elsewhere without."""
+    """[(page, number)]: numbers of four digits and more that stand between markers somewhere, and elsewhere without.
+
+    Blocks of code, fenced or indented, show what programs print.
+    """
     marked, bare = set(), []
     for page in all_pages():
         text = BLOCK.sub("", page.read_text("utf-8"))
-        marked |= {number for marker in VALUE.finditer(text) for number in long_numbers(marker["text"])}
-        text = TABLE.sub("", ORIGIN.sub("", VALUE.sub("", text)))
+        markers = [*VALUE.finditer(text), *TABLE.finditer(text)]
+        marked |= {number for marker in markers for number in long_numbers(marker["text"])}
+        text = TABLE.sub("", ORIGIN.sub("", VALUE.sub("", re.sub(r"^ {4}.*$", "", text, flags=re.M))))
         bare += [(page, number) for number in long_numbers(text)]
     return [(page, number) for page, number in bare if number in marked]
 
