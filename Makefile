@@ -10,6 +10,7 @@
 #   make hero       the README's picture and film, from what make demo made
 #   make bench      what the engines cost here: out/bench/bench.md   (BENCH=--quick: minutes instead of tens of minutes)
 #   make web        the sharp engine as a page that needs no installation: build/web/index.html
+#   make results    all numbers of docs/ anew, hours: docs/results/data, figures, pages   (RESULTS='--only STUDY', --list, --pages)
 #   make docs       docs/ as HTML in build/docs      make docs-check  run every command of README and docs/
 #   make format     clang-format on all sources          make lint      clang-format, clang-tidy and pyflakes, check only
 #   make portability DISTRIBUTION=trixie [TARGET=demo]   the committed tree in a bare Debian: log in out/portability
@@ -22,6 +23,7 @@ UNITY ?= $(if $(CMAKE_CXX_COMPILER_LAUNCHER),OFF,ON)
 WERROR ?= $(if $(CI),ON)
 SANITIZE ?= 0
 BENCH ?=
+RESULTS ?=
 DISTRIBUTION ?= trixie
 TARGET ?= demo
 CORES ?= $(shell tools/cores)
@@ -51,7 +53,7 @@ ifeq ($(shell id -u),0)
   export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
 endif
 
-.PHONY: all demo announcement hero test build configure packages test-packages run-demo install package bench docs docs-check format
+.PHONY: all demo announcement hero test build configure packages test-packages run-demo install package bench results docs docs-check format
 .PHONY: lint portability web web-page clean
 
 all: build
@@ -113,6 +115,10 @@ web:
 web-page:
 	tools/web/build_engine $(build)/web-engine --parallel $(CORES)
 	tools/web/page.py $(build)/web-engine/engine.wasm $(build)/web/index.html
+
+# The Python that CMake found has numpy and what draws.
+results: build
+	@"$$(sed -n 's/^ENDOFLOW_PYTHON:[A-Z]*=//p' $(build)/CMakeCache.txt)" tools/results $(build) $(RESULTS)
 
 docs: build
 	@tools/install_packages docs

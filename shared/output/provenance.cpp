@@ -33,6 +33,7 @@ std::string host_name() {
 nlohmann::ordered_json provenance(const LibraryVersions& libraries) {
     return {{"version", version()},
             {"git", git_description()},
+            {"numerics_revision", numerics_revision},
             {"compiler", compiler()},
             {"libraries", libraries},
             {"host", host_name()},

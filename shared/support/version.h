@@ -4,6 +4,9 @@
 
 namespace endoflow {
 
+/// Raised by one when results of an engine change beyond their tolerance; docs/results/data of a smaller one are stale.
+inline constexpr int numerics_revision = 1;
+
 /// The program's version, "major.minor.patch".
 [[nodiscard]] std::string version();
 

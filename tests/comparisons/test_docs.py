@@ -94,8 +94,8 @@ class Pages(unittest.TestCase):
         self.assertEqual(sorted(names - linked - {"index.md"}), [])
 
     def test_every_case_is_listed(self):
-        text = (locations.ROOT / "docs" / "case-files.md").read_text(encoding="utf-8")
-        cases = sorted(path.name for path in (locations.ROOT / "cases").iterdir() if path.is_file())
+        text = (locations.ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
+        cases = sorted(path.stem for path in (locations.ROOT / "cases").iterdir() if path.is_file())
         self.assertEqual([name for name in cases if f"`{name}`" not in text], [])
 
     @unittest.skipUnless(PROGRAM and Path(PROGRAM).exists(), "ENDOFLOW_PROGRAM names no program")
@@ -259,23 +259,6 @@ class Checker(unittest.TestCase):
                 self.assertIn(problem, found) if problem else self.assertEqual(found, "")
         self.assertEqual(check.check_case(Block(here, "toml", "", "[time]\nend = 2\n"), build), "")
         self.assertIn("did you mean", check.check_case(Block(here, "toml", "", "[time]\nendd = 2\n"), build))
-
-
-class Results(unittest.TestCase):
-    """The tables of the results' pages come from run directories."""
-
-    def test_differences(self):
-        import synthetic
-
-        with tempfile.TemporaryDirectory() as scratch:
-            runs = synthetic.write_pair(Path(scratch), count=9)
-            command = [sys.executable, str(TOOLS / "results.py"), "differences", *map(str, runs), "--times", "0.2,99"]
-            process = subprocess.run(command, capture_output=True, text=True)
-        self.assertEqual((process.returncode, process.stderr), (0, ""))
-        head, _, row, outside = process.stdout.splitlines()
-        self.assertEqual(head, "| time, µs | area gain | volume | energy | height | neck, sharp, nm |")
-        self.assertRegex(row, r"^\| 0\.2 (\| [+−]\d+\.\d\d % ){4}\|")
-        self.assertEqual(outside, "| 99 | – | – | – | – | – |")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,68 @@
+"""Figures that explain: the domain with a membrane of the standard case in it, and the diffuse layer's three weights."""
+
+import numpy as np
+
+from results import ink, tables
+
+#: Weights of the membrane's weight for equal viscosities (docs/phase-field.md), and the cuts of δ_Γ and δ_E.
+W2, W4 = -19.568, 21.451
+CUT_OF_MEMBRANE, CUT_OF_ENERGY = 1e-4, 1e-3
+
+
+def domain():
+    """The cylinder, both fluids, the membrane at 0.5 µs with its coat, its normal, the pin band."""
+    rows = tables.read("standard-shape").rows
+    r, z, c = (np.array([row[key] for row in rows]) for key in ("r_nm", "z_nm", "c"))
+    figure, axes = ink.panels(size=(4.6, 4.6))
+    axes.fill_between((0, 80), 0, 160, color=ink.SECOND_TINT[0])
+    axes.fill(np.append(r, (80, 0)), np.append(z, (0, 0)), color=ink.TINT[0])
+    axes.plot(r, z, color=ink.FAINT[0], linewidth=2)
+    coat = c > 0.5
+    axes.plot(r[coat], z[coat], color=ink.DIFFUSE[0], linewidth=4, solid_capstyle="butt")
+    axes.plot((80, 80), (z[-1] - 5, z[-1] + 5), color=ink.INK[0], linewidth=5, solid_capstyle="butt")
+    axes.axvline(0, color=ink.FAINT[0], linewidth=1, linestyle="-.")
+    foot = int(np.argmin(np.abs(r - 55) + (z > z[-1] + 8) * 99))
+    axes.annotate("n", (r[foot], z[foot] + 16), ha="center", va="bottom")
+    axes.annotate("", (r[foot], z[foot] + 16), (r[foot], z[foot]), arrowprops={"arrowstyle": "->", "color": ink.INK[0]})
+    for text, place in (("cell: ν₂, φ < 0", (40, 142)), ("extracellular: ν₁, φ > 0", (40, 18)), ("pin band", (76, z[-1] - 12)), ("coat", (26, z.max() + 3))):
+        axes.annotate(text, place, ha="right" if text == "pin band" else "center")
+    axes.annotate("membrane flows in at the rim", (78, z[-1] - 24), ha="right")
+    axes.set_xlim(-2, 84)
+    axes.set_ylim(-2, 162)
+    axes.set_aspect("equal")
+    axes.grid(visible=False)
+    axes.set_xlabel("r (nm)")
+    axes.set_ylabel("z (nm)")
+    return figure
+
+
+def layer():
+    """δ, δ_Γ and δ_E through the layer, and on a logarithmic axis where they are cut."""
+    x = np.linspace(-6, 6, 961)
+    phi = np.tanh(x / np.sqrt(2))
+    w = (1 - phi**2) ** 2
+    delta = 3 / (4 * np.sqrt(2)) * w
+    w0 = 1 - W2 / 5 - 3 * W4 / 35
+    membrane = (w0 + W2 * phi**2 + W4 * phi**4) * delta * w / (w + CUT_OF_MEMBRANE)
+    energy = delta * w / (w + CUT_OF_ENERGY)
+    energy /= np.trapz(energy, x)
+    looks = ((delta, "δ", ink.FAINT, "-", 3), (membrane, "$δ_Γ$", ink.SHARP, "-", 1.6), (energy, "$δ_E$", ink.DIFFUSE, "--", 1.6))
+    figure, grid = ink.panels(1, 2, (7.2, 2.9))
+    for axes, size in zip(grid, (np.asarray, np.abs)):
+        for values, label, colour, line, width in looks:
+            axes.plot(x, size(values), label=label, color=colour[0], linestyle=line, linewidth=width)
+        axes.set_xlabel("ψ/ε")
+    grid[0].set_title("weights times ε")
+    grid[0].set_xlim(-4, 4)
+    grid[0].legend()
+    grid[1].set_title("their size")
+    grid[1].set_yscale("log")
+    grid[1].set_ylim(1e-9, 5)
+    return figure
+
+
+#: {name of the file: (title, what draws it, the tables it shows)}.
+SCHEMATICS = {
+    "domain": ("The domain in the meridian plane, with the membrane of the standard case at 0.5 µs", domain, ("standard-shape",)),
+    "layer": ("The three weights of the diffuse layer", layer, ()),
+}

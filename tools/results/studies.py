@@ -1,0 +1,12 @@
+"""All studies, in the order in which they are made."""
+
+from results.other_studies import paper, smooth, vesicles
+from results.sharp_studies import accuracy, alarms, branches, growth, modes, noise, radii
+from results.standard_studies import layers, relatives, standard
+
+GROUPS = (standard, relatives, layers, accuracy, alarms, radii, modes, noise, growth, branches, vesicles, smooth, paper)
+
+STUDIES = tuple(study for group in GROUPS for study in group())
+
+#: {table: its columns}.
+COLUMNS = {table.name: table.columns for study in STUDIES for table in study.tables}
