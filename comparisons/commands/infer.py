@@ -31,9 +31,10 @@ class Inference(Study):
     def __init__(self, options, output):
         super().__init__(options, output)
         study = read_study(options.study)
-        if not study.data and not study.contours and not options.sensitivity:
+        measured = study.data or study.contours or study.pits
+        if not measured and not options.sensitivity:
             raise StudyError(f"{options.study}: needs [[data]], or --sensitivity, which does without", BAD_INPUT)
-        if options.calibrate and not (study.data or study.contours):
+        if options.calibrate and not measured:
             raise StudyError(f"{options.study}: --calibrate needs [[data]] for times and errors", BAD_INPUT)
         if options.truth and not options.calibrate:
             raise StudyError("--truth needs --calibrate N: how often regions hold it", BAD_INPUT)

@@ -55,8 +55,9 @@ def calibrate(problem, trained, truth, course, seed):
     """The Case of a truth (unknowns,) whose run is `course`; None when that run failed or ended unlike those of the emulator."""
     if course is None or course.outcome != trained.outputs.outcome:
         return None
-    noise = np.random.default_rng(seed).standard_normal(len(problem.data)) * problem.errors
-    exact = problem.predictions(batch_of([course]), truth[None, :])[0]
+    generator = np.random.default_rng(seed)
+    noise = generator.standard_normal(len(problem.data)) * problem.errors
+    exact = problem.drawn(batch_of([course]), truth[None, :], generator)[0]
     density = Density(problem, trained, exact + noise)
     jacobian = slopes(problem, trained, truth)
     covariance = np.linalg.inv(jacobian.T @ jacobian + prior_precision(problem))

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from comparisons.inference.observations import WITH_NECK
+from comparisons.measures.coat import COAT, coat_of
 from comparisons.measures.distances import signed_distances
 
 #: Points of a stage, close together at its start, where curves bend most.
@@ -47,9 +48,9 @@ class CourseError(ValueError):
 
 
 def course_of(run, columns, contours=()):
-    """The Course of an endoflow.Run with some columns of its history and the distances of contours' points.
+    """The Course of an endoflow.Run with some columns of its history or of COAT, and the distances of contours' points.
 
-    Raises CourseError for a run that has not moved on from its start.
+    Raises CourseError for a run that has not moved on from its start, or has no coat though columns are of it.
     """
     history = run.history
     time, budding = history["time_us"], run.event_time("budding")
@@ -62,7 +63,7 @@ def course_of(run, columns, contours=()):
     first_times = neck_time * FIRST_GRID
     second_times = neck_time + (end - neck_time) * SECOND_GRID
     first, second = {}, {}
-    for column in columns:
+    for column in (name for name in columns if name not in COAT):
         known = np.isfinite(history[column])
         if column in WITH_NECK:
             if onset is not None:
@@ -75,12 +76,10 @@ def course_of(run, columns, contours=()):
         first[column] = curve(first_times)
         if onset is not None:
             second[column] = curve(second_times)
-    for outline in contours:
-        times, distances = contour_distances(run, outline)
-        for name, values in zip(outline.columns, distances):
-            first[name] = np.interp(first_times, times, values)
-            if onset is not None:
-                second[name] = np.interp(second_times, times, values)
+    for name, (times, values) in {**coat_curves(run, columns), **contour_distances(run, contours)}.items():
+        first[name] = np.interp(first_times, times, values)
+        if onset is not None:
+            second[name] = np.interp(second_times, times, values)
     return Course(outcome, neck_time, end, first, second)
 
 
@@ -114,10 +113,28 @@ def neck_onset(time, neck, diameter):
     return at, float(np.polyval(np.polyfit(time[used] - at, mean, 1), 0.0))
 
 
-def contour_distances(run, outline):
-    """Times (n,) of a run's shapes, and signed distances (points, n) in nm of a contour's points from them."""
-    distances = [signed_distances(outline.r, outline.z, shape.r, shape.z - shape.z[-1]) for shape in run.shapes]
-    return run.shape_times, np.transpose(distances)
+def contour_distances(run, contours):
+    """{name of a contour's point: (times (n,) of a run's shapes, its signed distances (n,) in nm from them)}."""
+    if not contours:
+        return {}
+    r, z = (np.concatenate([getattr(outline, part) for outline in contours]) for part in ("r", "z"))
+    distances = np.transpose([signed_distances(r, z, shape.r, shape.z - shape.z[-1]) for shape in run.shapes])
+    names = [name for outline in contours for name in outline.columns]
+    return {name: (run.shape_times, values) for name, values in zip(names, distances)}
+
+
+def coat_curves(run, columns):
+    """{column: (times, values)} of those columns that are of COAT, from the first shape on that has a coat's edge."""
+    wanted = [column for column in columns if column in COAT]
+    if not wanted:
+        return {}
+    coats = [coat_of(shape) for shape in run.shapes]
+    start = next((i for i, coat in enumerate(coats) if coat is not None), len(coats))
+    lost = [shape.time for shape, coat in zip(run.shapes[start:], coats[start:]) if coat is None]
+    if lost or start == len(coats):
+        when = f" at t = {lost[0]:g} µs" if lost else ""
+        raise CourseError(f"the run has no coat's edge, c = ½, where the closing angle is taken{when}")
+    return {column: (run.shape_times[start:], np.array([coat[column] for coat in coats[start:]])) for column in wanted}
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ import numpy as np
 
 from comparisons.inference.study_keys import LENGTHS, SEPARATORS, TIMES, unit_of_text, unknown
 from comparisons.inference.text_file import read_text
+from comparisons.measures.coat import COAT
 from endoflow.history import name_and_unit
 
 REMEDY = "save the table as CSV and give that"
@@ -40,7 +41,12 @@ MOST_LISTED = 12
 LONGEST = 60
 
 #: Columns that tell what a table is.
-FIRST_COLUMNS = {"contour": ("r_nm", "z_nm"), "file": ("time_us",)}
+FIRST_COLUMNS = {
+    "outlines": ("pit", "r_nm", "z_nm"),
+    "contour": ("r_nm", "z_nm"),
+    "file": ("time_us",),
+    "pits": (next(iter(COAT)),),
+}
 
 
 class TableError(ValueError):
@@ -65,7 +71,8 @@ class Layout:
         """What a number of a column is multiplied with to be in the unit of its name."""
         length = self.pixel_nm if self.length_unit == "pixel" else LENGTHS[self.length_unit]
         unit = name_and_unit(column)[1]
-        return TIMES[self.time_unit] if unit == "µs" else length ** {"nm": 1, "nm²": 2, "nm³": 3}[unit]
+        powers = {"nm": 1, "nm²": 2, "nm³": 3, "1/nm": -1, "°": 0, "1": 0}
+        return TIMES[self.time_unit] if unit == "µs" else length ** powers[unit]
 
     def stated_unit(self, column):
         """The unit in which the numbers of a column of lengths or times are; None of areas and volumes."""

@@ -1,4 +1,4 @@
-"""Measured numbers with their errors: curves against time, times of events, contours."""
+"""Measured numbers with their errors: curves against time, times of events, contours, pits that were each seen once."""
 
 import dataclasses
 import math
@@ -8,14 +8,21 @@ import numpy as np
 
 import endoflow
 from comparisons.inference.csv_table import Layout, read_table
-from comparisons.inference.study_keys import MEASURABLE
+from comparisons.inference.study_keys import MEASURABLE, error_column
+from comparisons.measures.coat import COAT
 from comparisons.measures.quantities import BUDDING, columns
 
 #: Quantities that exist only while there is a neck.
 WITH_NECK = columns("of_neck")
 
-#: Most points of an outline: the sampler's time is proportional to their number.
+#: Columns of a point.
+POINT = ("r_nm", "z_nm")
+
+#: Most points of a file of outlines: the sampler's time is proportional to their number.
 MOST_POINTS = 500
+
+#: Closing angles (degrees) and sizes of curvatures (1/nm) that a coat can have, with the errors of measurement.
+ANGLES, SHARPEST = (-90.0, 270.0), 1.0
 
 #: What may be negative; the others are sizes.
 SIGNED = columns("signed")
@@ -38,10 +45,38 @@ class Datum:
 
 
 @dataclass(frozen=True)
+class Moments:
+    """What is known of the time at which a pit was seen: not before `start` (µs of the run) and, if even, as likely at any time from
+    there to the run's end."""
+
+    even: bool
+    start: float
+
+
+@dataclass(frozen=True)
+class Pit:
+    """A pit that was seen once, with one time for all its Data; moments: what is known of that."""
+
+    data: tuple
+    moments: Moments
+
+    @property
+    def columns(self):
+        """What was measured, each of it once."""
+        return tuple(datum.column for datum in self.data)
+
+    @property
+    def place(self):
+        """Where it was read."""
+        return self.data[0].place
+
+
+@dataclass(frozen=True)
 class Contour:
     """An outline r, z (points,) in nm with its error in nm, z from the level of the rim or, from_floor, from the box's floor.
 
-    time: µs, or None for one whose time is unknown, between low and high; places: where each point was read, for messages.
+    time: µs, or None for one whose time is unknown: an unknown between low and high or, with `moments`, summed over; places: where
+    each point was read, for messages.
     """
 
     number: int
@@ -53,11 +88,17 @@ class Contour:
     low: float
     high: float
     places: tuple
+    moments: Moments | None = None
 
     @property
     def time_name(self):
         """Name of the unknown that is its time."""
         return f"contour_{self.number + 1}_time"
+
+    @property
+    def is_dated_by_unknown(self):
+        """Whether its time is one of the unknowns."""
+        return self.time is None and self.moments is None
 
     @property
     def columns(self):
@@ -68,14 +109,8 @@ class Contour:
     def data(self):
         """Its points as data: the distances from the membrane are to be zero."""
         time = math.nan if self.time is None else self.time
-        name = self.time_name if self.time is None else ""
+        name = self.time_name if self.is_dated_by_unknown else ""
         return [Datum(column, time, 0.0, self.error, name, place) for column, place in zip(self.columns, self.places)]
-
-
-def error_column(quantity):
-    """Name of the column with a quantity's error: neck_radius_nm has neck_radius_error_nm."""
-    stem, _, unit = quantity.rpartition("_")
-    return f"{stem}_error_{unit}"
 
 
 def layout_of(keys, where):
@@ -119,13 +154,67 @@ def _curve(table, quantity, errors):
         place = table.place(row)
         if math.isnan(time):
             raise ValueError(f"{place}: time_us is empty, though {quantity} = {value:g}; leave both empty or none")
-        if not 0 < error < math.inf:
-            what = "is empty" if math.isnan(error) else f"= {error:g}"
-            raise ValueError(f"{place}: {error_column(quantity)} {what}; it must be greater than 0, a standard deviation")
-        if value <= 0 and quantity not in SIGNED:
-            raise ValueError(f"{place}: {quantity} = {value:g} must be greater than 0; leave the cell empty where there is none")
+        _require_number(place, quantity, value, error)
         found.append(Datum(quantity, float(time), float(value), float(error), place=place))
     return found
+
+
+def _require_number(place, quantity, value, error):
+    """Refuses an error that is no standard deviation, and a size that is not positive."""
+    if not 0 < error < math.inf:
+        what = "is empty" if math.isnan(error) else f"= {error:g}"
+        raise ValueError(f"{place}: {error_column(quantity)} {what}; it must be greater than 0, a standard deviation")
+    if value <= 0 and quantity not in SIGNED:
+        raise ValueError(f"{place}: {quantity} = {value:g} must be greater than 0; leave the cell empty where there is none")
+
+
+def pits(folder, keys, where):
+    """The Pits of `pits = FILE`: one in each row with columns of COAT and their errors, unless keys give errors for all."""
+    path, moments = folder / keys["pits"], moments_of(keys)
+    allowed = tuple(name for quantity in COAT for name in (quantity, error_column(quantity)))
+    table = read_table(path, (), allowed, layout_of(keys, where))
+    for quantity in COAT:
+        name = error_column(quantity)
+        if name in table.columns and quantity not in table.columns:
+            raise ValueError(f"{path}: has {name} without {quantity}")
+        if quantity in table.columns and name not in table.columns and keys[name] is None:
+            raise ValueError(f"{path}: needs a column {name}, or {name} = … beside pits")
+    found = [_pit(table, row, keys, moments) for row in range(0, len(table.lines), keys["every"])]
+    if not found:
+        raise ValueError(f"{path}: holds no pit; known columns: {', '.join(allowed)}")
+    return found
+
+
+def _pit(table, row, keys, moments):
+    """The Pit of a row of a Table."""
+    place, data = table.place(row), []
+    for quantity in COAT:
+        value = table.columns.get(quantity, {row: math.nan})[row]
+        if math.isnan(value):
+            continue
+        name = error_column(quantity)
+        error = table.columns[name][row] if name in table.columns else keys[name]
+        _require_number(place, quantity, value, error)
+        _require_coat(place, quantity, value)
+        data.append(Datum(quantity, math.nan, float(value), float(error), place=place))
+    if len(data) < (1 if moments.even else 2):
+        what = f"{data[0].column} alone" if data else "no number"
+        remedy = 'a pit of unknown time needs two; leave the row out, or say moments = "even" if it is known how pits were chosen'
+        raise ValueError(f"{place}: holds {what}; {remedy if data else 'leave the row out'}")
+    return Pit(tuple(data), moments)
+
+
+def _require_coat(place, quantity, value):
+    """Refuses what no coat has: it is in another unit."""
+    if quantity == "closing_angle_deg" and not ANGLES[0] <= value <= ANGLES[1]:
+        raise ValueError(f"{place}: {quantity} = {value:g} is no closing angle; it is in degrees, 0 for a flat coat, 180 for a sphere")
+    if quantity == "coat_curvature_per_nm" and abs(value) > SHARPEST:
+        raise ValueError(f"{place}: {quantity} = {value:g} is a radius of {1 / abs(value):.2g} nm; say length_unit = … if it is in another unit")
+
+
+def moments_of(keys):
+    """The Moments that the keys of a [[data]] (dict) say."""
+    return Moments(keys["moments"] == "even", keys["from_us"])
 
 
 def run_data(folder, keys, where):
@@ -173,17 +262,45 @@ def contour(folder, keys, where, number):
         raise ValueError("has time_us and high_us; leave out high_us where its time is known")
     if time is None and not keys["low_us"] < keys["high_us"]:
         raise ValueError(f"low_us = {keys['low_us']:g} must be below high_us = {keys['high_us']:g}")
-    names = ("r_nm", "z_nm")
-    table = read_table(path, names, names, layout_of(keys, where))
-    r, z = (table.columns[name] for name in names)
+    table = read_table(path, POINT, POINT, layout_of(keys, where))
+    r, z, rows = _points(table, keys, where)
+    places = tuple(table.place(row) for row in rows)
+    limits = keys["low_us"], 0.0 if keys["high_us"] is None else keys["high_us"]
+    return Contour(number, r, z, keys["z_from"] == "floor", keys["error_nm"], time, *limits, places)
+
+
+def outlines(folder, keys, where, number):
+    """The Contours, numbered from `number` on, of `outlines = FILE`: columns pit, r_nm, z_nm; those with one pit are an outline."""
+    names, moments = ("pit", *POINT), moments_of(keys)
+    table = read_table(folder / keys["outlines"], names, names, layout_of(keys, where))
+    r, z, rows = _points(table, keys, where)
+    labels = table.columns["pit"][rows]
+    for row, label in zip(rows, labels):
+        if label != np.floor(label):  # nan, too
+            what = "is empty" if math.isnan(label) else f"= {label:g}"
+            raise ValueError(f"{table.place(row)}: pit {what}; it is a whole number, the same for all points of an outline")
+    found = []
+    for label in dict.fromkeys(labels):
+        own = np.nonzero(labels == label)[0]
+        if len(own) < 2:
+            raise ValueError(f"{table.place(rows[own[0]])}: is the only point of pit {label:g}; an outline of unknown time needs two")
+        places = tuple(table.place(rows[i]) for i in own)
+        floor, error = keys["z_from"] == "floor", keys["error_nm"]
+        found.append(Contour(number + len(found), r[own], z[own], floor, error, None, 0.0, 0.0, places, moments))
+    return found
+
+
+def _points(table, keys, where):
+    """(r, z, their rows) of a Table's points that count, r on the right. Raises ValueError."""
+    r, z = (table.columns[name] for name in POINT)
     if not len(r):
-        raise ValueError(f"{path}: holds no point")
-    used = range(0, len(r), keys["every"])
-    if len(used) > MOST_POINTS:
+        raise ValueError(f"{table.path}: holds no point")
+    rows = range(0, len(r), keys["every"])
+    if len(rows) > MOST_POINTS:
         every = math.ceil(len(r) / MOST_POINTS)
-        raise ValueError(f"{path}: has {len(used)} points, more than {MOST_POINTS}; say every = {every} in {where}")
+        raise ValueError(f"{table.path}: has {len(rows)} points, more than {MOST_POINTS}; say every = {every} in {where}")
     for row in range(len(r)):
-        empty = [name for name in names if math.isnan(table.columns[name][row])]
+        empty = [name for name in POINT if math.isnan(table.columns[name][row])]
         if empty:
             raise ValueError(f"{table.place(row)}: {empty[0]} is empty; a point needs r_nm and z_nm")
     if keys["half_planes"] == "both":
@@ -192,6 +309,4 @@ def contour(folder, keys, where, number):
     if negative.size:
         what = f"r_nm = {r[negative[0]]:g} is left of the axis"
         raise ValueError(f'{table.place(negative[0])}: {what}; say half_planes = "both", which mirrors such points, in {where}')
-    places = tuple(table.place(row) for row in used)
-    limits = keys["low_us"], 0.0 if keys["high_us"] is None else keys["high_us"]
-    return Contour(number, r[used], z[used], keys["z_from"] == "floor", keys["error_nm"], time, *limits, places)
+    return r[rows], z[rows], rows

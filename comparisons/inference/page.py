@@ -6,6 +6,7 @@ from scipy.stats import binom, chi2
 from comparisons.drawing.plots import save_all
 from comparisons.drawing.style import plt
 from comparisons.inference.calibration import GROUPS
+from comparisons.measures.coat import COAT
 from comparisons.measures.quantities import DRAWN
 from comparisons.page import html
 from comparisons.page.html import escaped, figures, quantity
@@ -14,6 +15,9 @@ DATA, MODEL, LINEAR = "#333333", "#0072B2", "#D55E00"
 
 #: Bins of a histogram of samples, and fractions of the posterior that contours hold.
 BINS, HELD = 40, (0.9, 0.5)
+
+#: Paths of samples that are drawn beside pits.
+PATHS = 30
 
 #: Colours of verdicts about directions.
 VERDICTS = {"fixed by the data": "#0072B2", "narrowed": "#E69F00", "not separated": "#999999"}
@@ -34,6 +38,8 @@ def write_fit(problem, inference, results, bands, directory):
     figures = {"infer_posterior": ("Posterior; dashed: 90 % region of the linearised fit", posterior(problem, inference))}
     if bands:
         figures["infer_data"] = ("Data with the 90 % band of the posterior", data(problem, bands))
+    if pairs(problem):
+        figures["infer_pits"] = ("Coats that were seen once; lines: paths of samples of the posterior", coats(problem, inference))
     figures["infer_directions"] = ("What the data separate", directions(results["directions"]))
     return save_all(figures, directory)
 
@@ -68,6 +74,40 @@ def data(problem, bands):
         )
         axes.set_title(DRAWN[column].label)
         axes.set_xlabel("time (µs)")
+    return figure
+
+
+def pairs(problem):
+    """[columns that are drawn against each other]: the first one of COAT that was measured of a pit, and each other one."""
+    measured = [column for column in COAT if any(column in pit.columns for pit in problem.pits)]
+    return [(measured[0], other) for other in measured[1:]]
+
+
+def coats(problem, inference):
+    """What was measured of pits, one quantity against another, with paths of samples of the posterior."""
+    drawn = pairs(problem)
+    figure, grid = plt.subplots(1, len(drawn), figsize=(4.6 * len(drawn), 3.6), squeeze=False, layout="constrained")
+    chosen = inference.posterior.x[np.linspace(0, len(inference.posterior.x) - 1, PATHS).astype(int)]
+    batch = inference.trained.batch(chosen[:, : problem.engine_count])
+    for axes, pair in zip(grid.flat, drawn):
+        for number in range(PATHS):
+            stages = [stage for stage in (batch.first, batch.second) if stage]
+            line = (np.concatenate([stage[column][number] for stage in stages]) * COAT[column].factor for column in pair)
+            axes.plot(*line, color=MODEL, alpha=0.15, linewidth=0.8)
+        own = [{datum.column: datum for datum in pit.data} for pit in problem.pits]
+        x, y = ([data[column] for data in own if set(pair) <= data.keys()] for column in pair)
+        (across, up) = (COAT[column] for column in pair)
+        axes.errorbar(
+            [datum.value * across.factor for datum in x],
+            [datum.value * up.factor for datum in y],
+            [datum.error * up.factor for datum in y],
+            [datum.error * across.factor for datum in x],
+            fmt="o",
+            color=DATA,
+            markersize=3,
+            linewidth=0.7,
+        )
+        axes.set(xlabel=across.label, ylabel=up.label)
     return figure
 
 

@@ -14,9 +14,11 @@ import numpy as np
 
 from comparisons.errors import BAD_INPUT, StudyError
 from comparisons.inference.course import BUDDED, values_at, within_course
-from comparisons.inference.observations import EVENTS
+from comparisons.inference.observations import EVENTS, Pit
+from comparisons.inference.pits import drawn, log_likelihoods, nearest, path_of, times
 from comparisons.inference.study_file import MOST_UNKNOWNS, horizon, is_exact_time_scale
 from comparisons.inference.study_keys import MEASURABLE
+from comparisons.measures.coat import COAT
 from comparisons.measures.metrics import flattened
 
 #: Rounding of a time that is meant to be the end of the runs, relative.
@@ -44,7 +46,7 @@ def checked(study, parameters, exact):
         _require_size(study, datum, parameters["domain"])
     earliest, latest = times_of_data(exact, horizon(study, parameters))
     slack = ROUNDING * (latest - earliest)
-    for place, key, time, remedy in _times(study.data, contours):
+    for place, key, time, remedy in _times(study.data, contours, study.pits):
         where = f"{place}: {key} = {time:g} µs"
         if time < earliest - slack:
             remedy = "a shift between clocks is an unknown with time_offset = true"
@@ -54,7 +56,7 @@ def checked(study, parameters, exact):
     return dataclasses.replace(study, contours=contours)
 
 
-def _times(data, contours):
+def _times(data, contours, pits):
     """(place, key, time in µs, what to do about one after the end) of every time that a study names."""
     later = "raise horizon in [study]"
     for datum in data:
@@ -64,8 +66,12 @@ def _times(data, contours):
             yield datum.place, "time_us", datum.time, f'{later}, or say time_unit = "ns" or whatever it is'
     for outline in contours:
         named = {"time_us": outline.time} if outline.time is not None else {"low_us": outline.low, "high_us": outline.high}
+        if outline.moments:
+            named = {"from_us": outline.moments.start}
         for key, time in named.items():
             yield outline.places[0].rpartition(":")[0], key, time, later
+    for pit in pits:
+        yield pit.place.rpartition(":")[0], "from_us", pit.moments.start, later
 
 
 def times_of_data(exact, end):
@@ -140,12 +146,24 @@ class Problem:
         self.priors = [unknown.prior for unknown in self.unknowns]
         self.limits = np.array([(prior.lowest, prior.highest) for prior in self.priors])
         self.contours = study.contours
-        self.data = [*study.data, *(datum for contour in study.contours for datum in contour.data)]
+        seen_once = [contour for contour in study.contours if contour.moments]
+        self.pits = [*study.pits, *(Pit(tuple(contour.data), contour.moments) for contour in seen_once)]
+        self.data = [
+            *study.data,
+            *(datum for contour in study.contours if not contour.moments for datum in contour.data),
+            *(datum for pit in self.pits for datum in pit.data),
+        ]
         self.values = np.array([datum.value for datum in self.data])
         self.errors = np.array([datum.error for datum in self.data])
-        self._groups = {}
-        for index, datum in enumerate(self.data):
+        first = len(self.data) - sum(len(pit.data) for pit in self.pits)
+        self.of_pits = np.arange(len(self.data)) >= first
+        self._groups, self._pit_groups = {}, {}
+        for index, datum in enumerate(self.data[:first]):
             self._groups.setdefault((datum.column, datum.time_name), []).append(index)
+        for number, pit in enumerate(self.pits):
+            indices = range(first, first + len(pit.data))
+            self._pit_groups.setdefault((pit.columns, pit.moments), []).append((number, indices))
+            first = indices.stop
         self._check()
 
     def _check(self):
@@ -160,10 +178,10 @@ class Problem:
 
     @property
     def columns(self):
-        """Columns of history.csv that courses need: those with data, and what pages show anyhow."""
+        """Columns of history.csv, and of coats, that courses need: those with data, and what pages show anyhow."""
         measured = {datum.column for datum in self.data}
         shown = ("neck_radius_nm", "bud_diameter_nm", "bud_height_nm")
-        return [name for name in MEASURABLE if name in measured or name in shown]
+        return [name for name in (*MEASURABLE, *COAT) if name in measured or name in shown]
 
     def settings(self, point):
         """{key: text} that a run with engine coordinates (engine_count,) has on top of the study's own."""
@@ -215,8 +233,18 @@ class Problem:
         return factor[:, None], offset[:, None]
 
     def predictions(self, batch, x):
-        """(n, data) of n courses with coordinates (n, unknowns); nan where the model has no such number."""
-        found = np.empty((len(x), len(self.data)))
+        """(n, data) of n courses with coordinates (n, unknowns); nan where the model has no such number.
+
+        Of a pit that was seen once: at the time at which the course is nearest to what was measured of it.
+        """
+        found = self.timed_predictions(batch, x)
+        for path, _, indices, _ in self._paths(batch):
+            found[:, indices] = nearest(path, self.values[indices], self.errors[indices]) if path else np.nan
+        return found
+
+    def timed_predictions(self, batch, x):
+        """predictions(), but of data with times of their own alone; nan for those of pits."""
+        found = np.full((len(x), len(self.data)), np.nan)
         for _, indices, column, time in self._requests(x):
             if column in EVENTS.values():
                 factor, offset = self.clocks(x)
@@ -224,6 +252,37 @@ class Problem:
             else:
                 found[:, indices] = values_at(batch, column, time)
         return found
+
+    def drawn(self, batch, x, generator):
+        """predictions(), of pits at times that are drawn as their likelihood takes them."""
+        found = self.predictions(batch, x)
+        for path, _, indices, moments in self._paths(batch):
+            if path:
+                found[:, indices] = drawn(path, self.errors[indices], moments.even, generator)
+        return found
+
+    def log_likelihoods(self, batch, values, errors):
+        """(n, pits): logarithms of the pits' likelihoods for values and errors (data,), but for a constant that depends on the errors; 0
+        where the courses of a batch have no such quantity."""
+        found = np.zeros((len(batch.end), len(self.pits)))
+        for path, own, indices, moments in self._paths(batch):
+            if path:
+                found[:, own] = log_likelihoods(path, values[indices], errors[indices], moments.even)
+        return found
+
+    def pit_times(self, batch, errors, fractions):
+        """(n, pits) in µs of the runs: a time of each pit below which a fraction (n, pits) of its likelihood lies, with errors (data,)."""
+        found = np.full((len(batch.end), len(self.pits)), np.nan)
+        for path, own, indices, moments in self._paths(batch):
+            if path:
+                found[:, own] = times(path, self.values[indices], errors[indices], moments.even, fractions[:, own])
+        return found
+
+    def _paths(self, batch):
+        """(Path or None, numbers of the pits (p,), indices (p, k) of their data, Moments) for each group of pits."""
+        for (names, moments), members in self._pit_groups.items():
+            own, indices = zip(*members)
+            yield path_of(batch, names, moments.start), np.array(own), np.array(indices), moments
 
     def known(self, batch):
         """Whether the courses of a batch, all of one outcome, have the quantity of each datum (data,)."""

@@ -1,4 +1,4 @@
-"""infer.json (schema_version 1), posterior.csv and predictive.csv of a study. Values are in the parameters' own units.
+"""infer.json (schema_version 1), posterior.csv, predictive.csv and pits.csv of a study. Values are in the parameters' own units.
 
 infer.json:
 
@@ -12,8 +12,9 @@ infer.json:
                           90 % interval, whether the best fit lies at a limit of the prior
     covariance            of the unknowns at the best fit, linearised, in the order of `unknowns`; of logarithms where the prior
                           is logarithmic
-    fit                   {chi_square, degrees_of_freedom, p_value, evaluations, outcome, data, outside}: `outside` data have no
-                          counterpart in the run; those without any number there count neither for χ² nor for the degrees
+    fit                   {chi_square, degrees_of_freedom, p_value, evaluations, outcome, data, outside, pits}: `outside` data have
+                          no counterpart in the run; those without any number there count neither for χ² nor for the degrees; each
+                          of `pits`, which were seen once, takes a degree for its time
     directions            [{combination, deviation, shrinkage, verdict, vector}], see comparisons/inference/sensitivity.py
     posterior             {samples, effective, autocorrelation, acceptance, converged, budding_time_us: {median, low, high} or null}
     emulator              {degree, runs, excluded, error, check: {size, worst, unlike, runs}, crowded}: errors in those of the data
@@ -21,6 +22,8 @@ infer.json:
     sensitivity           see comparisons/inference/sensitivity.py; only with --sensitivity
 
 posterior.csv: one sample in a row, a column for each unknown. predictive.csv: column, time_us, low, median, high (90 % band).
+pits.csv, of pits that were seen once: place (file and line), low, median and high of their time in the run (µs, 90 %), misfit (distance
+from the best fit's path, in errors).
 """
 
 import math
@@ -70,7 +73,8 @@ def runs_entry(simulator):
 def fit_results(problem, inference, units):
     """The part of infer.json that comes from the data; units: {key: unit} of parameters."""
     fit, posterior, trained = inference.fit, inference.posterior, inference.trained
-    freedom = max(0, int(np.isfinite(fit.residuals).sum()) - len(problem.unknowns))
+    known = np.isfinite(fit.residuals)
+    freedom = max(0, int(known.sum()) - len(problem.unknowns) - (len(problem.pits) if known[problem.of_pits].any() else 0))
     batch = trained.batch(posterior.x[:, : problem.engine_count])
     covered = problem.covered(batch_of([fit.course]), fit.x[None, :])[0]
     factor, offset = problem.clocks(posterior.x)
@@ -86,6 +90,7 @@ def fit_results(problem, inference, units):
             "outcome": fit.course.outcome,
             "data": len(problem.data),
             "outside": int(np.sum(~covered)),
+            "pits": len(problem.pits),
         },
         "directions": [
             {
@@ -180,8 +185,23 @@ def bands(problem, inference):
     return found
 
 
+def pit_rows(problem, inference):
+    """Rows of pits.csv: of each sample of the posterior one time is drawn for each pit."""
+    x = inference.posterior.x[np.linspace(0, len(inference.posterior.x) - 1, BAND_SAMPLES).astype(int)]
+    errors = np.hypot(problem.errors, inference.trained.errors)
+    fractions = np.random.default_rng(problem.study.seed).random((len(x), len(problem.pits)))
+    found = problem.pit_times(inference.trained.batch(x[:, : problem.engine_count]), errors, fractions)
+    own = iter(inference.fit.residuals[problem.of_pits])
+    misfits = [math.hypot(*(next(own) for _ in pit.data)) for pit in problem.pits]
+    rows = []
+    for pit, times, misfit in zip(problem.pits, found.T, misfits):
+        numbers = {f"{name}_us": value for name, value in interval(times).items()}
+        rows.append({"place": pit.place, **numbers, "misfit": misfit})
+    return rows
+
+
 def write_tables(problem, inference, bands, directory):
-    """Write posterior.csv and predictive.csv into directory (Path); bands: as of bands()."""
+    """Write posterior.csv, predictive.csv and pits.csv into directory (Path); bands: as of bands()."""
     x = inference.posterior.x
     chosen = problem.display(x[np.linspace(0, len(x) - 1, min(len(x), WRITTEN_SAMPLES)).astype(int)])
     write_table(directory / "posterior.csv", [dict(zip(problem.names, map(float, row))) for row in chosen])
@@ -192,6 +212,8 @@ def write_tables(problem, inference, bands, directory):
             rows.append({"column": column, **dict(zip(("time_us", "low", "median", "high"), numbers))})
     if rows:
         write_table(directory / "predictive.csv", rows)
+    if problem.pits:
+        write_table(directory / "pits.csv", pit_rows(problem, inference))
 
 
 def warnings(results):

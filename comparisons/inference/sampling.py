@@ -50,9 +50,11 @@ class Density:
         inside = np.isfinite(found) & self.trained.emulator.region.holds(x[:, :count])
         found = np.where(inside, found, -np.inf)
         if inside.any():
-            predicted = self.problem.predictions(self.trained.batch(x[inside, :count]), x[inside])
-            misses = ((predicted - self.values) / self.errors)[:, self.known]
+            batch = self.trained.batch(x[inside, :count])
+            predicted = self.problem.timed_predictions(batch, x[inside])
+            misses = ((predicted - self.values) / self.errors)[:, self.known & ~self.problem.of_pits]
             found[inside] -= 0.5 * np.sum(misses**2, axis=1)
+            found[inside] += np.sum(self.problem.log_likelihoods(batch, self.values, self.errors), axis=1)
         return np.where(np.isnan(found), -np.inf, found)
 
 

@@ -11,7 +11,7 @@ from comparisons.inference.study_file import horizon
 from comparisons.studies.member_runner import FAILED
 from comparisons.studies.members import FINISHED, checked_member, resolved_parameters, settings_of, work_left
 
-#: Shapes that a run writes up to its end when contours are data.
+#: Shapes that a run writes up to its end when contours or pits are data.
 SHAPES = 60
 
 #: A fraction of a prior that gives no whole number: a parameter that must be one is no unknown.
@@ -75,7 +75,7 @@ class Simulator:
 def fixed_settings(study, parameters):
     """Settings of every run of a StudyFile: no fields, few shapes, an end at budding or well after the last datum."""
     end = horizon(study, parameters)
-    shapes = end / SHAPES if study.contours else end
+    shapes = end / SHAPES if study.contours or study.pits else end
     own = {
         "output.field_interval": "0",
         "output.shape_interval": f"{shapes:.10g}",

@@ -6,7 +6,7 @@ from collections import Counter
 from dataclasses import dataclass
 
 from comparisons.errors import BAD_INPUT, IO_FAILURE, StudyError
-from comparisons.inference.observations import contour, event, history_data, run_data
+from comparisons.inference.observations import contour, event, history_data, outlines, pits, run_data
 from comparisons.inference.priors import KINDS, PriorError, prior_of
 from comparisons.inference.study_keys import DATA_KINDS, TABLES, read_keys, shown, unknown
 from comparisons.inference.text_file import FileError, read_text
@@ -17,7 +17,7 @@ PARTS = {"study": "[study]", "set": "[set]", "unknown": "[[unknown]]", "data": "
 #: Keys of an unknown that say what it is; it has one of them.
 WHAT = ("key", "scales", "time_offset")
 
-#: What reads the data that are no outlines.
+#: What reads the data that are numbers with times of their own.
 READERS = {"file": history_data, "run": run_data, "event": event}
 
 #: Most unknowns that need runs: an emulator of third degree has 84 coefficients then.
@@ -51,8 +51,8 @@ class Unknown:
 
 @dataclass(frozen=True)
 class StudyFile:
-    """A study as its file says. path: of it; case: path or name; settings: {key: value}; data: of observations.Datum;
-    horizon: µs or None."""
+    """A study as its file says. path: of it; case: path or name; settings: {key: value}; data: of observations.Datum, without
+    those of contours and pits; horizon: µs or None."""
 
     path: str
     case: str
@@ -61,6 +61,7 @@ class StudyFile:
     unknowns: tuple
     data: tuple
     contours: tuple
+    pits: tuple
     seed: int
     horizon: float | None
 
@@ -108,9 +109,9 @@ class _Reader:
         unknowns = [self.unknown(entry, f"[[unknown]] {i + 1}") for i, entry in enumerate(content.get("unknown", []))]
         if not unknowns:
             self.fail("the study", "needs at least one [[unknown]]")
-        data, contours = self.data(content.get("data", []))
+        data, contours, pits_seen = self.data(content.get("data", []))
         for outline in contours:
-            if outline.time is None:
+            if outline.is_dated_by_unknown:
                 prior = prior_of("uniform", {"low": outline.low, "high": outline.high})
                 unknowns.append(Unknown(outline.time_name, prior))
         self.require_apart(unknowns, settings)
@@ -125,6 +126,7 @@ class _Reader:
             tuple(unknowns),
             tuple(data),
             tuple(contours),
+            tuple(pits_seen),
             head["seed"],
             head["horizon"],
         )
@@ -180,8 +182,8 @@ class _Reader:
                 self.fail("[[unknown]]", "key = time.end: how far runs go is no unknown; it is horizon in [study]")
 
     def data(self, entries):
-        """(Data, Contours) of all [[data]]."""
-        data, contours, sources = [], [], []
+        """(Data, Contours, Pits) of all [[data]]."""
+        data, contours, pits_seen, sources = [], [], [], []
         for number, entry in enumerate(entries, start=1):
             where = f"[[data]] {number}"
             kinds = [kind for kind in DATA_KINDS if kind in entry]
@@ -197,6 +199,10 @@ class _Reader:
             try:
                 if kind == "contour":
                     contours.append(contour(self.path.parent, keys, where, len(contours)))
+                elif kind == "outlines":
+                    contours.extend(outlines(self.path.parent, keys, where, len(contours)))
+                elif kind == "pits":
+                    pits_seen.extend(pits(self.path.parent, keys, where))
                 else:
                     data.extend(READERS[kind](self.path.parent, keys, where))
             except ValueError as error:
@@ -206,7 +212,7 @@ class _Reader:
                 if any(source in sources for source in own):
                     self.fail(where, f"{kind} = {shown(keys[kind])} is there twice; its data would count twice")
                 sources += own
-        return data, contours
+        return data, contours, pits_seen
 
 
 def horizon(study, parameters):
@@ -217,7 +223,7 @@ def horizon(study, parameters):
 def is_exact_time_scale(unknown, parameters):
     """Whether an unknown only slows the motion down, by itself: no run is needed to know what it does.
 
-    parameters: resolved, of the case. Without inertia and exchange, the equations have no other time than the viscosities'
+    parameters: resolved, of the case. Without inertia, exchange and maturation, the equations have no other time than the viscosities'
     and that of the molecules' mobility or diffusivity.
     """
     rates = TRANSPORT_RATES.get(parameters["molecules"]["transport"])
@@ -227,5 +233,5 @@ def is_exact_time_scale(unknown, parameters):
         and rates <= set(unknown.divides) <= TRANSPORT_RATES["cahn-hilliard"] | TRANSPORT_RATES["fickian"]
         and not parameters["fluid"]["inertia"]
         and parameters["fluid"]["dynamics"] == "flow"
-        and parameters["molecules"].get("exchange", "none") == "none"
+        and all(parameters["molecules"].get(clock, "none") == "none" for clock in ("exchange", "maturation"))
     )

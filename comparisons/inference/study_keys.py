@@ -9,7 +9,9 @@ from dataclasses import dataclass
 
 from comparisons import ENGINES
 from comparisons.inference.text_file import ENCODINGS
+from comparisons.measures.coat import COAT
 from comparisons.measures.quantities import columns
+from endoflow.history import name_and_unit
 
 #: Longest value that a message shows.
 SHOWN = 60
@@ -37,6 +39,12 @@ KINDS = {
 
 #: Largest seed: every generator of random numbers takes it, and those that follow it.
 MOST_SEED = 2**31 - 1
+
+
+def error_column(quantity):
+    """Name of the column, or the key, with a quantity's error: neck_radius_nm has neck_radius_error_nm."""
+    stem = name_and_unit(quantity)[0].replace(" ", "_")
+    return f"{stem}_error{quantity.removeprefix(stem)}"
 
 
 class ValueRefused(ValueError):
@@ -250,6 +258,25 @@ LAYOUT = (
 )
 
 
+#: What is known of the times of pits that were each seen once.
+MOMENTS = (
+    Key(
+        "moments",
+        choice("any", "even"),
+        "of the pits' times nothing is known, or they are even between `from_us` and the run's end, as of pits that were seen at random",
+        "any",
+    ),
+    Key("from_us", Number(least=0), "µs of the run: no pit was seen before", 0.0),
+)
+
+
+EVERY, HALF_PLANES, Z_FROM = (
+    Key("every", Whole(1, 10**6), "n: of the rows only every n-th one counts", 1),
+    Key("half_planes", choice("right", "both"), "both: points with r < 0 are mirrored to the right", "right"),
+    Key("z_from", choice("rim", "floor"), "where z is 0: at the level of the rim or on the floor of the box", "rim"),
+)
+
+
 TIME_UNIT = Key("time_unit", Unit(tuple(TIMES), {}), "unit of the file's times", "µs")
 
 
@@ -300,9 +327,28 @@ TABLES = {
         Key("time_us", Number(), "µs: when it was taken, where that is known"),
         Key("low_us", Number(), "µs: earliest time where it is unknown", 0.0),
         Key("high_us", Number(), "µs: latest time where it is unknown"),
-        Key("every", Whole(1, 10**6), "n: of the points only every n-th one counts", 1),
-        Key("half_planes", choice("right", "both"), "both: points with r < 0 are mirrored to the right", "right"),
-        Key("z_from", choice("rim", "floor"), "where z is 0: at the level of the rim or on the floor of the box", "rim"),
+        EVERY,
+        HALF_PLANES,
+        Z_FROM,
+        *LAYOUT,
+    ),
+    "[[data]] pits": (
+        Key("pits", FILE, "a CSV of coats, a pit in each row, seen once", needed=True),
+        *(
+            Key(error_column(column), POSITIVE, f"{quantity.unit}: of every {quantity.title.lower()} without an error of its own")
+            for column, quantity in COAT.items()
+        ),
+        *MOMENTS,
+        EVERY,
+        *LAYOUT,
+    ),
+    "[[data]] outlines": (
+        Key("outlines", FILE, "a CSV of points on outlines of pits, each seen once", needed=True),
+        Key("error_nm", POSITIVE, "nm: of each point", needed=True),
+        *MOMENTS,
+        EVERY,
+        HALF_PLANES,
+        Z_FROM,
         *LAYOUT,
     ),
 }
@@ -351,7 +397,7 @@ def documentation():
     """The tables of all keys as Markdown, as docs/inference.md has them."""
     lines = []
     own = {part: tuple(key for key in keys if key not in LAYOUT) for part, keys in TABLES.items()}
-    for part, keys in {**own, "[[data]] file, contour": LAYOUT}.items():
+    for part, keys in {**own, "[[data]] file, contour, pits, outlines": LAYOUT}.items():
         lines += [f"**`{part}`**", "", "| key | may be | without it | meaning |", "| --- | --- | --- | --- |"]
         for key in keys:
             default = "needed" if key.needed else "–" if key.default in (None, ()) else f"`{_toml(key.default)}`"

@@ -41,7 +41,7 @@ class Quantity:
         return f"{self.title} ({self.plot_unit})"
 
 
-#: Times of events, distances between two runs, then columns of history.csv.
+#: Times of events, distances between two runs, columns of history.csv, then what measures/coat.py reads off a shape.
 QUANTITIES = (
     Quantity("budding_time_us", "Budding time", "µs", "when the neck radius falls below 5 nm", "certified swept"),
     Quantity("mean_distance_nm", "Mean distance", "nm", "symmetric, between curves, averaged over arc length", "distance"),
@@ -100,13 +100,16 @@ QUANTITIES = (
         plotted=("%", 100),
         logarithmic=True,
     ),
+    Quantity("closing_angle_deg", "Closing angle", "°", "of the membrane to the horizontal at the coat's edge, c = ½", "of_coat signed"),
+    Quantity("coat_area_nm2", "Coat's area", "nm²", "∫ c dA", "of_coat", plotted=("10³ nm²", 1e-3)),
+    Quantity("coat_curvature_per_nm", "Coat's mean curvature", "1/nm", "½ ∫ κ c dA/∫ c dA", "of_coat signed"),
 )
 
 
 def columns(role):
     """{column: Quantity} of a role: "compared" (by two runs' difference at equal times), "distance" (between two runs),
     "converging" (studied for ε → 0), "certified" (given with an error), "swept" (in sweep.csv), "drawn" (against time), "data" (may be measured),
-    "of_neck" (exists only where there is a neck), "signed" (may be negative)."""
+    "of_neck" (exists only where there is a neck), "of_coat" (of a shape's coat), "signed" (may be negative)."""
     return {quantity.column: quantity for quantity in QUANTITIES if role in quantity.roles.split()}
 
 

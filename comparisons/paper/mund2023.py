@@ -4,9 +4,9 @@ import numpy as np
 
 from comparisons.drawing.style import BUDDING_NECK_RADIUS, plt
 from comparisons.errors import StudyError
+from comparisons.measures.coat import COAT, coat_of
 from comparisons.paper.figures import COLOURS
 from comparisons.paper.item import BOUNDARY_INTEGRAL, Printed, Result, Wanted, is_run, state_of, text
-from endoflow.curves import area_from_axis
 
 TITLE = "How a coat gets its curvature: three ways from flat to closed (Mund et al. 2023)"
 SOURCE = "M. Mund, A. Tschanz, Y.-L. Wu, F. Frey et al., J. Cell Biol. 222, e202206038 (2023)"
@@ -61,52 +61,15 @@ def fitted(angle):
     return (1 - np.cos(theta)) / (2 * curvature**2), curvature
 
 
-def closing_angle(shape):
-    """Angle (degrees) of the membrane to the horizontal at the coat's edge, c = ½; None of a Shape without one."""
-    inside = shape.c >= 0.5
-    if not inside[0] or inside.all():
-        return None
-    last = int(np.argmin(inside)) - 1
-    part = (shape.c[last] - 0.5) / (shape.c[last] - shape.c[last + 1])
-    slope = np.unwrap(np.arctan2(-np.gradient(shape.z), np.gradient(shape.r)))
-    return float(np.degrees(slope[last] + part * (slope[last + 1] - slope[last])))
-
-
-def coat_of(shape):
-    """(area in nm², mean curvature in 1/nm) of a Shape's coat: ∫ c dA and ½ ∫ κ c dA/∫ c dA."""
-    pieces = np.diff(area_from_axis(shape.r, shape.z))
-
-    def over_membrane(values):
-        return float(np.sum(0.5 * (values[1:] + values[:-1]) * pieces))
-
-    covered = over_membrane(shape.c)
-    return covered, 0.5 * over_membrane(shape.kappa * shape.c) / covered
-
-
 def rows_of(name, run):
     """A row for each shape of a run that has settled and has a coat's edge."""
-    rows = []
-    for shape in run.shapes:
-        angle = closing_angle(shape)
-        if angle is not None and shape.time >= SETTLED:
-            area, curvature = coat_of(shape)
-            rows.append(
-                {
-                    "way": name,
-                    "time_us": shape.time,
-                    "closing_angle_deg": angle,
-                    "coat_area_nm2": area,
-                    "coat_curvature_per_nm": curvature,
-                }
-            )
-    return rows
+    found = ((shape.time, coat_of(shape)) for shape in run.shapes if shape.time >= SETTLED)
+    return [{"way": name, "time_us": time, **coat} for time, coat in found if coat is not None]
 
 
 def over_last(rows):
     """Arrays (angle in degrees, area and curvature over their last values) of a way's rows."""
-    angle, area, curvature = (
-        np.array([row[name] for row in rows]) for name in ("closing_angle_deg", "coat_area_nm2", "coat_curvature_per_nm")
-    )
+    angle, area, curvature = (np.array([row[column] for row in rows]) for column in COAT)
     return angle, area / area[-1], curvature / curvature[-1]
 
 

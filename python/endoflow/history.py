@@ -15,7 +15,7 @@ from .curves import hermite
 from .errors import RERUN, RunDirectoryError
 
 #: Words at the end of a column's name that spell its unit; `per` starts the denominator.
-UNIT_WORDS = {"nm": "nm", "nm2": "nm²", "nm3": "nm³", "us": "µs", "s": "s", "pN": "pN"}
+UNIT_WORDS = {"nm": "nm", "nm2": "nm²", "nm3": "nm³", "us": "µs", "s": "s", "pN": "pN", "deg": "°"}
 
 #: Bytes that hold the last row of a history.csv.
 TAIL = 8192

@@ -52,11 +52,13 @@ def course(settings):
 class StandIn:
     """As simulator.Simulator."""
 
+    make = staticmethod(course)
+
     def __init__(self, problem):
         self.problem, self.points, self.known = problem, [], []
 
     def courses(self, points):
-        found = [course(self.problem.settings(point)) for point in points]
+        found = [self.make(self.problem.settings(point)) for point in points]
         self.points.extend(points)
         self.known.extend(found)
         return found

@@ -18,6 +18,7 @@ from comparisons.inference.sensitivity import directions
 from comparisons.inference.observations import error_column
 from comparisons.inference.priors import PriorError, prior_of
 from comparisons.inference.results import bands, fit_results, warnings
+from comparisons.inference.study_file import VISCOSITIES, Unknown, is_exact_time_scale
 
 TWO_UNKNOWNS = """
 [[unknown]]
@@ -228,6 +229,14 @@ class Recovery(InferTest):
         values = problem.display(found.posterior.x)
         for column, truth in zip(values.T, (1.7, 0.05)):
             self.assertLess(abs(np.median(column) - truth), 3.3 * column.std())
+
+    def test_a_coat_that_matures_has_a_clock_of_its_own(self):
+        """Viscosities alone do not slow such a run down: the factor needs runs."""
+        slowness = Unknown("slowness", prior_of("log-uniform", {"low": 0.5, "high": 4}), scales=tuple(VISCOSITIES), divides=("molecules.mobility",))
+        self.assertTrue(is_exact_time_scale(slowness, stand_in.PARAMETERS))
+        for clock in ({"maturation": "cooperative"}, {"exchange": "edge"}):
+            molecules = {**stand_in.PARAMETERS["molecules"], **clock}
+            self.assertFalse(is_exact_time_scale(slowness, {**stand_in.PARAMETERS, "molecules": molecules}))
 
     def test_a_wrong_model_is_noticed(self):
         """Errors given ten times too small: χ² per datum is 100, and the page says so."""

@@ -8,9 +8,13 @@ import unittest
 from pathlib import Path
 
 import locations
+import numpy as np
 from command import unnamed_basis
 from engines import COARSE, options, texts
 from studies import StudyTest
+
+import endoflow
+from comparisons.measures.coat import COAT, coat_of
 
 PROGRAM = os.environ.get("ENDOFLOW_PROGRAM")
 
@@ -137,6 +141,47 @@ class DataOfTheDiffuseEngine(StudyTest):
             self.assertAlmostEqual(found[name]["best"] / truth, 1, delta=difference)
             self.assertLess(found[name]["low"], truth)
             self.assertGreater(found[name]["high"], truth)
+
+
+@unittest.skipUnless(PROGRAM and Path(PROGRAM).exists(), "ENDOFLOW_PROGRAM names no program")
+class PitsOfTheEngine(StudyTest):
+    """A coat that grows while it matures: 30 coats of unknown time, with noise, give back the speed of growth."""
+
+    SPEED = 20.0  # nm/us
+    ERRORS = np.array([5.0, 150.0, 0.002])  # of an angle (°), an area (nm²), a curvature (1/nm)
+    SETTINGS = {
+        "boundary_integral.elements": 16,
+        "time.tolerance": 3e-3,
+        "output.field_interval": 0,
+    }
+
+    def test_recovery(self):
+        self.program, generator = Path(PROGRAM), np.random.default_rng(2)
+        (self.scratch / "case.toml").write_text('[molecules]\npatch_radius = 22\nexchange = "edge"\nedge_speed = 10\n'
+            'maturation = "cooperative"\nmaturation_rate = 8\n')
+        true = ["--set", f"molecules.edge_speed={self.SPEED}", "--set", "output.shape_interval=0.01", "--until", "0.25", "-o", "truth"]
+        command = [PROGRAM, "run", "boundary-integral", "case.toml", *options(texts(self.SETTINGS)), *true]
+        subprocess.run(command, cwd=self.scratch, check=True, capture_output=True)
+        shapes = endoflow.load(self.scratch / "truth").shapes[2:]
+        coats = [coat_of(shapes[i]) for i in generator.integers(len(shapes), size=30)]
+        noisy = np.array([[coat[column] for column in COAT] for coat in coats]) + self.ERRORS * generator.standard_normal((30, 3))
+        rows = (",".join(f"{number:.6g}" for number in row) for row in noisy)
+        (self.scratch / "pits.csv").write_text("\n".join([",".join(COAT), *rows]))
+        lines = "".join(f'"{key}" = {json.dumps(value)}\n' for key, value in self.SETTINGS.items())
+        pits = '[[data]]\npits = "pits.csv"\nclosing_angle_error_deg = 5\ncoat_area_error_nm2 = 150\ncoat_curvature_error_per_nm = 0.002\n'
+        unknown = '[[unknown]]\nkey = "molecules.edge_speed"\nprior = "log-uniform"\nlow = 14\nhigh = 28\n'
+        (self.scratch / "study.toml").write_text(f'[study]\ncase = "case.toml"\nhorizon = 0.25\n[set]\n{lines}{unknown}{pits}')
+        process = self.call("infer", "study.toml", "-o", "found")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        found = json.loads((self.scratch / "found/infer.json").read_text())
+        speed = found["unknowns"][0]
+        deviation = (speed["high"] - speed["low"]) / 3.29
+        self.assertLess(abs(speed["median"] - self.SPEED), 3.3 * deviation, speed)  # 1 in 1000
+        self.assertEqual(found["fit"]["pits"], 30)
+        self.assertGreater(found["fit"]["p_value"], 1e-3)
+        with open(self.scratch / "found/pits.csv", newline="", encoding="utf-8") as file:
+            self.assertEqual(len(list(csv.DictReader(file))), 30)
+        self.assertIn("Coats that were seen once", (self.scratch / "found/report.html").read_text())
 
 
 if __name__ == "__main__":
