@@ -14,7 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from comparisons.inference.study_keys import LENGTHS, SEPARATORS, TIMES, unit_of_text, unknown
+from comparisons.inference.study_keys import SEPARATORS, unknown
+from comparisons.inference.study_values import LENGTHS, TIMES, unit_of_text
 from comparisons.inference.text_file import read_text
 from comparisons.measures.coat import COAT
 from endoflow.history import name_and_unit

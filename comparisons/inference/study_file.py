@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from comparisons.errors import BAD_INPUT, IO_FAILURE, StudyError
 from comparisons.inference.observations import contour, event, history_data, outlines, pits, run_data
 from comparisons.inference.priors import KINDS, PriorError, prior_of
-from comparisons.inference.study_keys import DATA_KINDS, TABLES, read_keys, shown, unknown
+from comparisons.inference.study_keys import DATA_KINDS, TABLES, read_keys, unknown
+from comparisons.inference.study_values import shown
 from comparisons.inference.text_file import FileError, read_text
 
 #: Keys of a study as a whole: how often each may be there is in its brackets.
