@@ -125,24 +125,35 @@ def layout_of(keys, where):
 def history_data(folder, keys, where):
     """The Data of `file = …`: columns time_us, a quantity or more, and their errors unless `error` gives one for all."""
     path = folder / keys["file"]
-    allowed = ("time_us", *(name for quantity in MEASURABLE for name in (quantity, error_column(quantity))))
+    allowed = ("time_us", *with_errors(MEASURABLE))
     table = read_table(path, ("time_us",), allowed, layout_of(keys, where))
     found = []
     for quantity in MEASURABLE:
-        name = error_column(quantity)
-        if quantity not in table.columns:
-            if name in table.columns:
-                raise ValueError(f"{path}: has {name} without {quantity}")
-            continue
-        errors = table.columns.get(name)
-        if errors is None:
-            if keys["error"] is None:
-                raise ValueError(f"{path}: needs a column {name}, or error = … beside file")
-            errors = np.full(len(table.lines), keys["error"])
-        found += _curve(table, quantity, errors)
+        errors = _errors(table, quantity, keys, "error", "file")
+        if errors is not None:
+            found += _curve(table, quantity, errors)
     if not found:
         raise ValueError(f"{path}: holds no number; known columns: {', '.join(allowed)}")
     return found
+
+
+def with_errors(quantities):
+    """Columns of quantities and of their errors."""
+    return tuple(name for quantity in quantities for name in (quantity, error_column(quantity)))
+
+
+def _errors(table, quantity, keys, key, kind):
+    """Errors (rows,) of a quantity of a Table, of its own column or one for all, keys[key] beside `kind = FILE`; None without the quantity."""
+    name = error_column(quantity)
+    if quantity not in table.columns:
+        if name in table.columns:
+            raise ValueError(f"{table.path}: has {name} without {quantity}")
+        return None
+    if name in table.columns:
+        return table.columns[name]
+    if keys[key] is None:
+        raise ValueError(f"{table.path}: needs a column {name}, or {key} = … beside {kind}")
+    return np.full(len(table.lines), keys[key])
 
 
 def _curve(table, quantity, errors):
@@ -171,29 +182,22 @@ def _require_number(place, quantity, value, error):
 def pits(folder, keys, where):
     """The Pits of `pits = FILE`: one in each row with columns of COAT and their errors, unless keys give errors for all."""
     path, moments = folder / keys["pits"], moments_of(keys)
-    allowed = tuple(name for quantity in COAT for name in (quantity, error_column(quantity)))
+    allowed = with_errors(COAT)
     table = read_table(path, (), allowed, layout_of(keys, where))
-    for quantity in COAT:
-        name = error_column(quantity)
-        if name in table.columns and quantity not in table.columns:
-            raise ValueError(f"{path}: has {name} without {quantity}")
-        if quantity in table.columns and name not in table.columns and keys[name] is None:
-            raise ValueError(f"{path}: needs a column {name}, or {name} = … beside pits")
-    found = [_pit(table, row, keys, moments) for row in range(0, len(table.lines), keys["every"])]
+    errors = {quantity: _errors(table, quantity, keys, error_column(quantity), "pits") for quantity in COAT}
+    found = [_pit(table, row, errors, moments) for row in range(0, len(table.lines), keys["every"])]
     if not found:
         raise ValueError(f"{path}: holds no pit; known columns: {', '.join(allowed)}")
     return found
 
 
-def _pit(table, row, keys, moments):
-    """The Pit of a row of a Table."""
+def _pit(table, row, errors, moments):
+    """The Pit of a row of a Table. errors: {quantity: errors (rows,), None without it}."""
     place, data = table.place(row), []
-    for quantity in COAT:
-        value = table.columns.get(quantity, {row: math.nan})[row]
+    for quantity in (name for name in COAT if errors[name] is not None):
+        value, error = table.columns[quantity][row], errors[quantity][row]
         if math.isnan(value):
             continue
-        name = error_column(quantity)
-        error = table.columns[name][row] if name in table.columns else keys[name]
         _require_number(place, quantity, value, error)
         _require_coat(place, quantity, value)
         data.append(Datum(quantity, math.nan, float(value), float(error), place=place))

@@ -20,20 +20,23 @@ AndersonMixing::AndersonMixing(const Space& space, std::vector<double> least, Ve
       largest_(std::move(least)),
       counted_(std::move(counted)) {
     weight_.reinit(counted_, false);
-    for (std::size_t field = 0; field < fields_.size(); ++field) {
-        double unknowns = 0;
-        for (const auto i : fields_[field]) unknowns += counted_(i);
-        largest_[field] *= largest_[field] * dealii::Utilities::MPI::sum(unknowns, counted_.get_mpi_communicator());
-    }
+    weight_ = 1;
+    const auto unknowns = squares(weight_);
+    for (std::size_t field = 0; field < fields_.size(); ++field) largest_[field] *= largest_[field] * unknowns[field];
+}
+
+std::vector<double> AndersonMixing::squares(const Vector& a) const {
+    std::vector<double> out(fields_.size());
+    for (std::size_t field = 0; field < fields_.size(); ++field)
+        for (const auto i : fields_[field]) out[field] += counted_(i) * a(i) * a(i);
+    dealii::Utilities::MPI::sum(out, a.get_mpi_communicator(), out);
+    return out;
 }
 
 void AndersonMixing::measure_by(const Vector& increment) {
-    std::vector<double> squares(fields_.size());
-    for (std::size_t field = 0; field < fields_.size(); ++field)
-        for (const auto i : fields_[field]) squares[field] += counted_(i) * increment(i) * increment(i);
-    dealii::Utilities::MPI::sum(squares, increment.get_mpi_communicator(), squares);
+    const auto found = squares(increment);
     for (std::size_t field = 0; field < fields_.size(); ++field) {
-        largest_[field] = std::max(largest_[field], squares[field]);
+        largest_[field] = std::max(largest_[field], found[field]);
         for (const auto i : fields_[field]) weight_(i) = largest_[field] > 0 ? counted_(i) / largest_[field] : 0;
     }
 }

@@ -26,6 +26,8 @@ class AndersonMixing {
 
   private:
     [[nodiscard]] double product(const Vector& a, const Vector& b) const;
+    /// Of each field the square of its l² norm, over all processes.
+    [[nodiscard]] std::vector<double> squares(const Vector& a) const;
     void measure_by(const Vector& increment);
     void remember(const Vector& increment);
 

@@ -14,22 +14,16 @@ void BlockGaussSeidel::reinit(const Space& space) {
     for (Block& block : blocks_) {
         block.system.reinit(space);
         block.earlier = earlier;
-        block.in_cell.clear();
-        for (const unsigned int component : block.components)
-            block.in_cell.insert(block.in_cell.end(), space.local[component].begin(), space.local[component].end());
         block.coupling.clear();
-        earlier.insert(earlier.end(), block.in_cell.begin(), block.in_cell.end());
+        const auto& in_cell = block.system.in_cell();
+        const auto rows = static_cast<unsigned int>(in_cell.size()),
+                   columns = static_cast<unsigned int>(earlier.size());
+        if (columns > 0)
+            block.coupling.assign(block.system.own_cells(), dealii::LAPACKFullMatrix<float>(rows, columns));
+        for (const unsigned int component : block.system.components())
+            earlier.insert(earlier.end(), space.local[component].begin(), space.local[component].end());
     }
-    positions_.assign(space.dofs.get_triangulation().n_active_cells(), 0);
-    std::size_t own = 0;
-    for (const auto& cell : space.dofs.active_cell_iterators())
-        if (cell->is_locally_owned()) positions_[cell->active_cell_index()] = own++;
-    residuals_.assign(own, dealii::Vector<double>(space.element.n_dofs_per_cell()));
-    for (Block& block : blocks_) {
-        const auto rows = static_cast<unsigned int>(block.in_cell.size()),
-                   columns = static_cast<unsigned int>(block.earlier.size());
-        if (columns > 0) block.coupling.assign(own, dealii::LAPACKFullMatrix<float>(rows, columns));
-    }
+    residuals_.assign(blocks_.front().system.own_cells(), dealii::Vector<double>(space.element.n_dofs_per_cell()));
 }
 
 void BlockGaussSeidel::start() {
@@ -45,17 +39,18 @@ void BlockGaussSeidel::add(const Cell& cell, const dealii::FullMatrix<double>& m
     for (Block& block : blocks_) {
         block.system.add(cell, matrix);
         if (block.earlier.empty()) continue;
-        auto& A = block.coupling[positions_[cell->active_cell_index()]];
-        for (unsigned int i = 0; i < block.in_cell.size(); ++i)
+        auto& A = block.coupling[position(cell)];
+        const auto& in_cell = block.system.in_cell();
+        for (unsigned int i = 0; i < in_cell.size(); ++i)
             for (unsigned int k = 0; k < block.earlier.size(); ++k)
-                A(i, k) = static_cast<float>(matrix(block.in_cell[i], block.earlier[k]));
+                A(i, k) = static_cast<float>(matrix(in_cell[i], block.earlier[k]));
     }
     add(cell, right_hand_side);
 }
 
 void BlockGaussSeidel::add(const Cell& cell, const dealii::Vector<double>& right_hand_side) {
     blocks_.front().system.add(cell, right_hand_side);
-    residuals_[positions_[cell->active_cell_index()]] = right_hand_side;
+    residuals_[position(cell)] = right_hand_side;
 }
 
 void BlockGaussSeidel::use(Precision precision) {
@@ -78,18 +73,19 @@ SubdomainSystem::Index BlockGaussSeidel::shared_unknowns() const {
 
 void BlockGaussSeidel::hand_over(const Space& space, const Vector& solution, Block& block) {
     if (block.earlier.empty()) return;
+    const auto& in_cell = block.system.in_cell();
     dealii::Vector<double> of_cell(space.element.n_dofs_per_cell());
     dealii::Vector<float> before(static_cast<unsigned int>(block.earlier.size())),
-        part(static_cast<unsigned int>(block.in_cell.size()));
+        part(static_cast<unsigned int>(in_cell.size()));
     block.system.start_right_hand_side();
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
-        const std::size_t position = positions_[cell->active_cell_index()];
+        const std::size_t own = position(cell);
         cell->get_dof_values(solution, of_cell);
         for (unsigned int k = 0; k < before.size(); ++k) before(k) = static_cast<float>(of_cell(block.earlier[k]));
-        block.coupling[position].vmult(part, before);
-        for (unsigned int i = 0; i < part.size(); ++i) residuals_[position](block.in_cell[i]) -= part(i);
-        block.system.add(cell, residuals_[position]);
+        block.coupling[own].vmult(part, before);
+        for (unsigned int i = 0; i < part.size(); ++i) residuals_[own](in_cell[i]) -= part(i);
+        block.system.add(cell, residuals_[own]);
     }
 }
 

@@ -46,21 +46,21 @@ class BlockGaussSeidel {
 
   private:
     struct Block {
-        Block(MPI_Comm communicator, const std::string& name, const std::vector<unsigned int>& wanted)
-            : components(wanted), system(communicator, name, wanted) {}
+        Block(MPI_Comm communicator, const std::string& name, const std::vector<unsigned int>& components)
+            : system(communicator, name, components) {}
 
-        std::vector<unsigned int> components;
         CondensedSystem system;
-        std::vector<unsigned int> in_cell, earlier;  // unknowns in a cell's numbering: its own, those of earlier blocks
+        std::vector<unsigned int> earlier;                      // unknowns of earlier blocks in a cell's numbering
         std::vector<dealii::LAPACKFullMatrix<float>> coupling;  // A_kl of own cells, l = 0 … k − 1 side by side
     };
 
+    /// Which one of the own cells this is.
+    [[nodiscard]] std::size_t position(const Cell& cell) const { return blocks_.front().system.position(cell); }
     /// The right-hand side of a block's system, from the solutions of the earlier ones.
     void hand_over(const Space& space, const Vector& solution, Block& block);
 
     std::deque<Block> blocks_;                       // systems cannot be moved
     std::vector<dealii::Vector<double>> residuals_;  // r of own cells, less the parts of earlier blocks
-    std::vector<std::size_t> positions_;             // of own cells there, by the active cell's index
 };
 
 }  // namespace endoflow::phasefield

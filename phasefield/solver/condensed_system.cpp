@@ -129,15 +129,15 @@ void CondensedSystem::condense(const dealii::Vector<double>& right_hand_side, El
 }
 
 void CondensedSystem::add(const Cell& cell, const dealii::FullMatrix<double>& matrix) {
-    const std::size_t position = positions_[cell->active_cell_index()];
-    eliminate(matrix, cells_[position]);
-    system_.add(position, outer_matrix_);
+    const std::size_t own = position(cell);
+    eliminate(matrix, cells_[own]);
+    system_.add(own, outer_matrix_);
 }
 
 void CondensedSystem::add(const Cell& cell, const dealii::Vector<double>& right_hand_side) {
-    const std::size_t position = positions_[cell->active_cell_index()];
-    condense(right_hand_side, cells_[position]);
-    system_.add(position, outer_residual_);
+    const std::size_t own = position(cell);
+    condense(right_hand_side, cells_[own]);
+    system_.add(own, outer_residual_);
 }
 
 void CondensedSystem::solve(const Space& space, Vector& solution) {

@@ -45,6 +45,13 @@ class CondensedSystem {
     void apply_factors(const Space& space, Vector& solution);
     [[nodiscard]] SubdomainSystem::Index shared_unknowns() const { return system_.shared_unknowns(); }
 
+    [[nodiscard]] const std::vector<unsigned int>& components() const { return components_; }
+    /// Their unknowns in a cell's numbering.
+    [[nodiscard]] const std::vector<unsigned int>& in_cell() const { return in_cell_; }
+    /// Of this process, and which one of them an own cell is.
+    [[nodiscard]] std::size_t own_cells() const { return cells_.size(); }
+    [[nodiscard]] std::size_t position(const Cell& cell) const { return positions_[cell->active_cell_index()]; }
+
   private:
     using Dense = dealii::LAPACKFullMatrix<double>;
 

@@ -6,7 +6,6 @@ A table is current when the numerics revision and the commands that made it are 
 """
 
 import argparse
-import csv
 import json
 import os
 import shlex
@@ -18,7 +17,6 @@ from pathlib import Path
 
 import endoflow
 from results import figures, pages, tables
-from results.writing import as_number
 from results.places import ROOT, RUNS, numerics_revision
 from results.studies import COLUMNS, STUDIES
 
@@ -50,7 +48,7 @@ class Made:
     def csv(self, label, name):
         """The rows of a CSV file below a run's directory."""
         with (self.directory(label) / name).open(encoding="utf-8", newline="") as file:
-            return [{key: as_number(text) for key, text in row.items()} for row in csv.DictReader(file)]
+            return tables.numbers(file)
 
     def rows(self, name):
         """The rows of a stored table."""

@@ -1,6 +1,7 @@
 """Figures that explain: the domain with a membrane of the standard case in it, and the diffuse layer's three weights."""
 
 import numpy as np
+from scipy.integrate import trapezoid
 
 from results import ink, tables
 
@@ -45,7 +46,7 @@ def layer():
     w0 = 1 - W2 / 5 - 3 * W4 / 35
     membrane = (w0 + W2 * phi**2 + W4 * phi**4) * delta * w / (w + CUT_OF_MEMBRANE)
     energy = delta * w / (w + CUT_OF_ENERGY)
-    energy /= np.trapz(energy, x)
+    energy /= trapezoid(energy, x)
     looks = ((delta, "δ", ink.FAINT, "-", 3), (membrane, "$δ_Γ$", ink.SHARP, "-", 1.6), (energy, "$δ_E$", ink.DIFFUSE, "--", 1.6))
     figure, grid = ink.panels(1, 2, (7.2, 2.9))
     for axes, size in zip(grid, (np.asarray, np.abs)):

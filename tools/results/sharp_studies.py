@@ -4,7 +4,7 @@ import csv
 
 from results import measures
 from results.places import ROOT
-from results.study import QUIET, SHARP, TO_BUDDING, Study, Table
+from results.study import QUIET, SHARP, TO_BUDDING, Study, Table, of_each
 from results.tables import Column
 
 #: Elements, tolerance, quadrature points.
@@ -37,9 +37,7 @@ def accuracy():
         Column("steps", "steps", ".0f"),
         Column("strain", "largest strain", ".0e"),
     )
-    yield Study(
-        "refinement", 2, runs, (Table("refinement", columns, lambda made: [{"run": name} | measures.refinement(made.run(name)) for name in runs]),)
-    )
+    yield Study("refinement", 2, runs, (Table("refinement", columns, of_each("run", measures.refinement, runs)),))
 
     known = known_budding()
     cases = {
@@ -117,12 +115,7 @@ def radii():
         Column("shape", "shape"),
         Column("end_us", "end, µs", ".2f"),
     )
-    yield Study(
-        "twelve-radii",
-        4,
-        runs,
-        (Table("twelve-radii", columns, lambda made: [{"radius_nm": name} | measures.patch(made.run(name)) for name in runs]),),
-    )
+    yield Study("twelve-radii", 4, runs, (Table("twelve-radii", columns, of_each("radius_nm", measures.patch, runs)),))
 
 
 #: Coats whose perturbations are followed, nm.
@@ -244,7 +237,7 @@ def branches():
         1,
         runs,
         (
-            Table("tube", columns, lambda made: [{"run": name} | measures.tube(made.run(name)) for name in runs]),
+            Table("tube", columns, of_each("run", measures.tube, runs)),
             Table("tube-branch", (), lambda made: measures.branch(made.run("80-48"), shown)),
         ),
     )
@@ -258,7 +251,7 @@ def branches():
         1,
         sizes,
         (
-            Table("snap-through", folds, lambda made: [{"elements": name} | measures.folds(made.run(name)) for name in sizes]),
+            Table("snap-through", folds, of_each("elements", measures.folds, sizes)),
             Table("snap-through-branch", (), lambda made: measures.branch(made.run("48"), points)),
         ),
     )

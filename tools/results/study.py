@@ -28,6 +28,11 @@ class Study:
     failures_are_results: bool = False
 
 
+def of_each(key, measure, labels):
+    """The rows of a Table with one for each run: {key: label}, then what measure(run) says."""
+    return lambda made: [{key: label} | measure(made.run(label)) for label in labels]
+
+
 QUIET = "--set output.field_interval=0"
 SHARP = f"endoflow run boundary-integral cases/standard.toml {QUIET}"
 DIFFUSE = f"endoflow run phase-field cases/standard.toml {QUIET}"

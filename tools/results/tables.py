@@ -71,8 +71,13 @@ def read(name):
                 stored.about[word] = text
         else:
             lines.append(line)
-    stored.rows = [{key: as_number(text) for key, text in row.items()} for row in csv.DictReader(lines)]
+    stored.rows = numbers(lines)
     return stored
+
+
+def numbers(lines):
+    """The rows of a CSV's lines as dicts, cells as as_number() has them."""
+    return [{key: as_number(text) for key, text in row.items()} for row in csv.DictReader(lines)]
 
 
 def write(name, about, commands, rows):
