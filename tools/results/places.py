@@ -19,3 +19,9 @@ def numerics_revision():
 def all_pages():
     """README.md and the pages of docs/."""
     return [ROOT / "README.md", *sorted(DOCS.rglob("*.md"))]
+
+
+def scheme_constant(name):
+    """A number of the scheme `production` that is no parameter, as phasefield/layer/constants.h states it."""
+    text = (ROOT / "phasefield" / "layer" / "constants.h").read_text("utf-8")
+    return float(re.search(rf'\{{"{name}", ([^,]+),', text)[1])

@@ -4,10 +4,7 @@ import numpy as np
 from scipy.integrate import trapezoid
 
 from results import ink, tables
-
-#: Weights of the membrane's weight for equal viscosities (docs/phase-field.md), and the cuts of δ_Γ and δ_E.
-W2, W4 = -19.568, 21.451
-CUT_OF_MEMBRANE, CUT_OF_ENERGY = 1e-4, 1e-3
+from results.places import scheme_constant
 
 
 def domain():
@@ -38,14 +35,15 @@ def domain():
 
 
 def layer():
-    """δ, δ_Γ and δ_E through the layer, and on a logarithmic axis where they are cut."""
+    """δ, δ_Γ (equal viscosities) and δ_E through the layer, and on a logarithmic axis where they are cut."""
+    w2, w4, weight_cut, tail_cut = map(scheme_constant, ("equal_square", "equal_fourth", "weight_cut", "tail_cut"))
     x = np.linspace(-6, 6, 961)
     phi = np.tanh(x / np.sqrt(2))
     w = (1 - phi**2) ** 2
     delta = 3 / (4 * np.sqrt(2)) * w
-    w0 = 1 - W2 / 5 - 3 * W4 / 35
-    membrane = (w0 + W2 * phi**2 + W4 * phi**4) * delta * w / (w + CUT_OF_MEMBRANE)
-    energy = delta * w / (w + CUT_OF_ENERGY)
+    w0 = 1 - w2 / 5 - 3 * w4 / 35
+    membrane = (w0 + w2 * phi**2 + w4 * phi**4) * delta * w / (w + weight_cut)
+    energy = delta * w / (w + tail_cut)
     energy /= trapezoid(energy, x)
     looks = ((delta, "δ", ink.FAINT, "-", 3), (membrane, "$δ_Γ$", ink.SHARP, "-", 1.6), (energy, "$δ_E$", ink.DIFFUSE, "--", 1.6))
     figure, grid = ink.panels(1, 2, (7.2, 2.9))
