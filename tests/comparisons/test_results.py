@@ -3,6 +3,7 @@
     python3 tests/comparisons/test_results.py
 """
 
+import math
 import re
 import sys
 import tempfile
@@ -14,7 +15,7 @@ import locations
 
 sys.path.insert(0, str(locations.ROOT / "tools"))
 
-from results import command, figures, ink, measures, pages, places, studies, study, tables, writing  # noqa: E402
+from results import command, figures, ink, measures, noisy_necks, other_studies, pages, places, studies, study, tables, writing  # noqa: E402
 
 REFRESH = "run `make results` (or `python3 tools/results build --pages` when no run is to be made anew)"
 
@@ -55,6 +56,10 @@ class Stored(unittest.TestCase):
         """A number of four digits that stands between markers stands nowhere without them."""
         found = [f"{page.name}: {number}" for page, number in pages.typed_by_hand()]
         self.assertEqual(found, [], "put it between <!-- value TABLE/ROW/COLUMN --> and <!-- end -->, or refer to the page that has it")
+
+    def test_study_of_a_page(self):
+        """The study of `endoflow infer` that is run is the one that its page shows."""
+        self.assertRegex(noisy_necks.STUDY.search((places.DOCS / "results" / "inference.md").read_text("utf-8"))[1], r"^\[study\]")
 
     def test_markers_are_whole(self):
         """One for each end; none at the start of a line, where Markdown takes the whole line for HTML."""
@@ -183,6 +188,33 @@ class Measures(unittest.TestCase):
             self.assertEqual(writing.written(rows[1][name], ".2%"), "–")
         off = measures.largest_differences(sharp, diffuse)
         self.assertGreaterEqual(off["area"], abs(diffuse.history_at("membrane_area_nm2", 0.2) / sharp.history_at("membrane_area_nm2", 0.2) - 1) - 1e-3)
+
+    def test_slower(self):
+        """A membrane whose area grows a quarter as fast as the sharp one's."""
+
+        def area(time):
+            return 20000 + 4000 * time**0.5
+
+        sharp = [{"time_us": 0.01 * i, "area_nm2": area(0.01 * i), "volume_nm3": i} for i in range(1, 61)]
+        rest = {"volume_extracellular_nm3": -5, "area_strain_max": 0.1, "net_vertical_force_pN": 7}
+        printed = [{"time_us": 0.02 * i, "membrane_area_nm2": area(0.005 * i)} | rest for i in range(30)]
+        rows = other_studies.slower(printed, sharp)
+        self.assertEqual([row["time_us"] for row in rows], ["0.1", "0.2", "0.3", "0.4", "0.5"])
+        for row in rows:
+            self.assertAlmostEqual(row["slower"], 4, delta=0.01)
+            self.assertAlmostEqual(row["area_sharp_nm2"], area(float(row["time_us"])), delta=1e-6)
+            self.assertEqual((round(row["volume_nm3"]), round(row["force_pN"])), (-5, 7))
+
+    def test_extremes_of_radii(self):
+        """The least of a parabola's exponential lies between the coats; diameters on a line."""
+        rows = [
+            {"radius_nm": r, "budding_us": math.exp((r - 37.5) ** 2 / 50), "neck_1_nm": None if r < 24 else math.exp((r - 41) ** 2 / 90), "diameter_nm": 2 * r - 5}
+            for r in (20, 24, 28, 32, 36, 40, 44, 48)
+        ]
+        (found,) = measures.extremes_of_radii(rows)
+        wanted = {"fastest_nm": 37.5, "narrowest_nm": 41, "slope": 2, "first_nm": -5, "r_squared": 1}
+        for name, value in wanted.items():
+            self.assertAlmostEqual(found[name], value, places=9, msg=name)
 
     def test_limits(self):
         rows = [{"epsilon_nm": e, "late": 0.001 + 0.02 * e**2} for e in (1.2, 0.85, 0.6, 0.42)]

@@ -3,14 +3,10 @@
 import numpy as np
 
 from results import ink, tables
+from results.portraits import PORTRAITS
 from results.schematics import SCHEMATICS
+from results.tables import columns
 from results.writing import written
-
-
-def columns(name, *wanted, **where):
-    """Columns of a table as arrays, nan where cells are empty, of the rows whose cells are those of where."""
-    rows = [row for row in tables.read(name).rows if all(row[key] == value for key, value in where.items())]
-    return [np.array([np.nan if row[key] is None else float(row[key]) for row in rows]) for key in wanted]
 
 
 def log_axis(axes, which, ticks):
@@ -267,7 +263,7 @@ FIGURES = {
     "folds": ("A coat that snaps through two folds; the force of a tube", folds, ("snap-through", "snap-through-branch", "tube", "tube-branch")),
     "paper-attribution": ("Area by change of the numerics", attribution, ("paper-attribution",)),
     "paper-mobility": ("Area against the mobility", mobility, ("paper-mobility",)),
-} | SCHEMATICS
+} | SCHEMATICS | PORTRAITS
 
 
 def draw_all():

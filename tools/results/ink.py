@@ -21,6 +21,7 @@ DIFFUSE_LINE = {"color": DIFFUSE[0], "marker": "s", "markersize": 3.5, **LINES[1
 
 RC = {
     "svg.fonttype": "none",
+    "svg.hashsalt": "endoflow",
     "font.family": ["DejaVu Sans", "sans-serif"],
     "text.color": INK[0],
     "axes.labelcolor": INK[0],

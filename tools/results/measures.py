@@ -1,11 +1,13 @@
 """From run directories to rows of tables. A row is a dict whose first entry names it; fractions are pure numbers."""
 
 import numpy as np
+from scipy.interpolate import griddata
 from scipy.optimize import curve_fit
 
 import endoflow
 from comparisons.measures.convergence import extrapolated
-from comparisons.paper.patch_sweep import morphology, neck_index
+from comparisons.paper.fig6 import line_fit
+from comparisons.paper.patch_sweep import best, morphology, neck_index
 
 
 def at(run, column, time):
@@ -49,6 +51,13 @@ def energy(run):
     columns = {"energy_pN_nm": "bending_energy_pN_nm", "dissipation_pN_nm_per_us": "dissipated_power_pN_nm_per_us"}
     times = np.geomspace(1e-3, run.history["time_us"][-1], 30)
     return [{"time_us": f"{time:.4g}"} | {name: at(run, column, time) for name, column in columns.items()} for time in times]
+
+
+def early(run):
+    """Area and volume of a run of the sharp engine to 0.5 µs, and their times, a fortieth of a decade apart or 0.1 µs."""
+    times = np.union1d(np.geomspace(1e-3, 0.5, 109), np.arange(1, 6) / 10)
+    columns = {"area_nm2": "membrane_area_nm2", "volume_nm3": "volume_extracellular_nm3"}
+    return [{"time_us": f"{time:.10g}"} | {name: at(run, column, time) for name, column in columns.items()} for time in times]
 
 
 def membrane(run, time):
@@ -253,16 +262,6 @@ def local_orders(rows, name):
     return np.diff(np.log(errors)) / np.diff(np.log(epsilon))
 
 
-def speed(run, fold_nm):
-    """How far a growing coat passes the fold of stationary shapes: coat of equal mass where the neck is 5 nm wide."""
-    budding = run.event_time("budding")
-    mass = float(np.interp(budding, run.history["time_us"], run.history["molecule_mass_nm2"]))
-    edge = run.parameters["molecules"]["interface_width"]
-    radius = float(np.sqrt(mass / np.pi - (np.pi * edge) ** 2 / 6))  # of the profile ½ (1 − tanh((r − r_c)/(√2 edge)))
-    balance = run.record["accuracy"]["energy-balance"]["largest"]
-    return {"budding_us": budding, "coat_nm": radius, "fold_nm": fold_nm, "beyond_nm": radius - fold_nm, "cpu_s": run.record["cpu_s"], "balance": balance}
-
-
 def tube(run):
     """How far the force of a tube is from its plateau, relative to it, beyond 300 nm and at its largest length up to 620 nm."""
     membrane = run.parameters["membrane"]
@@ -298,6 +297,60 @@ def noise_of_budding(directory):
     """Budding time and its spread, µs."""
     found = endoflow.load_modes(directory).noise
     return {"budding_us": found.budding, "spread_us": found.budding_spread, "spread": found.budding_spread / found.budding, "linear_until_us": found.linear_until}
+
+
+def inherited_spread(rows, budding):
+    """The spread of the budding time that fluctuations of the start alone would give, µs: rows of both tables of the noise."""
+    found = budding[0]
+    row = min(rows, key=lambda one: abs(one["time_us"] - found["budding_us"]))
+    return [{"run": "standard", "spread_us": found["spread_us"] * row["neck_inherited_nm"] / row["neck_rms_nm"]}]
+
+
+def ellipses(directory, radius):
+    """Rows of a coat: displacements by the mode m = 2 and ellipticities at 310 K, from the start to the end."""
+    found = endoflow.load_modes(directory).noise
+    names = ("ellipticity_rms", "ellipticity_inherited", "neck_ellipticity_rms", "neck_ellipticity_inherited")
+    columns = {"rms_m2_nm": found.modes[2]["rms_nm"], "inherited_m2_nm": found.modes[2]["inherited_nm"]}
+    columns |= {name: found.table[name] for name in names}
+    return [
+        {"radius_nm": f"{radius}", "time_us": float(time)} | {name: float(values[i]) for name, values in columns.items()}
+        for i, time in enumerate(found.times)
+    ]
+
+
+def section(directory, run):
+    """What thermal noise has made of a coat by budding, or by the end: m = 2, and the radii of bud and neck (nm)."""
+    noise, end = endoflow.load_modes(directory).noise, run.history["time_us"][-1]
+    row = {"budding_us": run.event_time("budding"), "bud_nm": at(run, "bud_diameter_nm", end) / 2, "neck_nm": at(run, "neck_radius_nm", end)}
+    names = ("ellipticity_rms", "ellipticity_inherited", "neck_ellipticity_rms", "neck_ellipticity_inherited")
+    return row | {name: float(noise.table[name][noise.last_index]) for name in names}
+
+
+def flow(run, time, spacing):
+    """The fluids' velocity at a time (µs) on a square lattice of points (nm)."""
+    fields = run.fields_at(time)
+    lattice = np.meshgrid(*(np.arange(0, values.max() + 1, spacing) for values in (fields.r, fields.z)), indexing="ij")
+    r, z = (axis.ravel() for axis in lattice)
+    velocity = griddata(np.column_stack((fields.r, fields.z)), fields["velocity"][:, :2], (r, z))
+    rows = np.column_stack((r, z, velocity))
+    return [{"point": f"{i}"} | dict(zip(("r_nm", "z_nm", "u_r", "u_z"), map(float, row))) for i, row in enumerate(rows)]
+
+
+def certificate(run):
+    """The relative error of the budding time that a run's certificate measures."""
+    budding = run.record["certificate"]["values"]["budding_time_us"]
+    return {"budding_us": budding["value"], "error": budding["error"] / budding["value"]}
+
+
+def extremes_of_radii(rows):
+    """Coats whose budding is fastest, and whose neck is narrowest at 1 µs (nm), and the line through the diameters at the end."""
+
+    def columns(name):
+        return np.array([(row["radius_nm"], row[name]) for row in rows if row[name] is not None]).T
+
+    slope, first, explained = line_fit(*columns("diameter_nm"))
+    row = {"coats": "twelve", "fastest_nm": best(*columns("budding_us"))[0], "narrowest_nm": best(*columns("neck_1_nm"))[0]}
+    return [row | {"slope": float(slope), "first_nm": float(first), "r_squared": float(explained)}]
 
 
 def perturbations(directory, initials):

@@ -1,24 +1,11 @@
-"""Studies of vesicles, of the smooth case, and of the paper's items."""
+"""Studies of the smooth case, and of the paper's items."""
 
+import numpy as np
+
+from endoflow.curves import local_cubic
 from results import measures
 from results.study import QUIET, Study, Table
 from results.tables import Column
-
-
-def vesicles():
-    """A closed prolate vesicle relaxes, in both engines."""
-    case = "cases/closed_vesicle.toml --set domain.spheroid_polar_axis=73.62 --set domain.spheroid_equatorial_axis=26.37 --until 5"
-    runs = {engine: f"endoflow run {engine} {case} {QUIET}" for engine in ("boundary-integral", "phase-field")}
-    columns = (
-        Column("time_us", "t, µs"),
-        Column("energy_sharp_pN_nm", "energy, sharp, pN nm", ".2f"),
-        *(Column(name, name, "+.3%") for name in ("energy", "height", "volume")),
-    )
-
-    def rows(made):
-        return measures.relaxation(made.run("boundary-integral"), made.run("phase-field"), (0.01, 0.1, 0.5, 1, 5))
-
-    yield Study("vesicle", 4, runs, (Table("vesicle", columns, rows),))
 
 
 def smooth():
@@ -43,7 +30,16 @@ def smooth():
     def limits(made):
         return measures.smooth_limits(made.rows("smooth-case"))
 
-    tables = (Table("smooth-case", (), rows), Table("smooth-case-limits", columns, limits, derived=True))
+    def late(made):
+        """How late each layer buds."""
+        found = [row for row in made.rows("smooth-case") if row["time_us"] == 1 and row["budding_time_us"] is not None]
+        return [{"epsilon_nm": f"{row['epsilon_nm']:g}", "late": row["budding_time_us"] / row["budding_time_sharp_us"] - 1} for row in found]
+
+    tables = (
+        Table("smooth-case", (), rows),
+        Table("smooth-case-limits", columns, limits, derived=True),
+        Table("smooth-case-late", (), late, derived=True),
+    )
     yield Study("smooth-case", 30, runs, tables)
 
 
@@ -84,4 +80,40 @@ def paper():
     def printed(made):
         return measures.history(made.run("run"), 0.05)
 
-    yield Study("printed", 120, {"run": "endoflow run phase-field cases/printed.toml --until 6.8"}, (Table("paper-printed", (), printed),))
+    beside = (
+        Column("time_us", "time, µs"),
+        Column("area_nm2", "area, nm²", ",.0f"),
+        Column("area_sharp_nm2", "sharp", ",.0f"),
+        Column("volume_nm3", "volume gained, nm³", ",.0f"),
+        Column("volume_sharp_nm3", "sharp", ",.0f"),
+        Column("slower", "slower by", ".2f"),
+        Column("strain", "largest strain", ".1%"),
+        Column("force_pN", "net vertical force, pN", ",.0f"),
+    )
+    tables = (
+        Table("paper-printed", (), printed),
+        Table("paper-printed-times", beside, lambda made: slower(made.rows("paper-printed"), made.rows("standard-history")), derived=True),
+    )
+    yield Study("printed", 120, {"run": "endoflow run phase-field cases/printed.toml --until 6.8"}, tables)
+
+
+#: Times (µs) at which the printed numerics is compared with the sharp membrane.
+PRINTED_TIMES = (0.1, 0.2, 0.3, 0.4, 0.5)
+
+
+def slower(printed, sharp):
+    """The printed numerics beside the sharp membrane: rows of both histories. Slower by: the time over that of the same sharp area."""
+    names = {"area_nm2": "membrane_area_nm2", "volume_nm3": "volume_extracellular_nm3", "strain": "area_strain_max", "force_pN": "net_vertical_force_pN"}
+    times, early = (np.array([row["time_us"] for row in rows]) for rows in (printed, sharp))
+    area, volume = (np.array([row[name] for row in sharp]) for name in ("area_nm2", "volume_nm3"))
+
+    def between(x, y, place):
+        return float(local_cubic(x, y, np.array([place]))[0])
+
+    rows = []
+    for time in PRINTED_TIMES:
+        row = {"time_us": f"{time:g}"}
+        row |= {name: between(times, np.array([one[column] for one in printed]), time) for name, column in names.items()}
+        row |= {"area_sharp_nm2": between(early, area, time), "volume_sharp_nm3": between(early, volume, time)}
+        rows.append(row | {"slower": time / np.exp(between(area, np.log(early), row["area_nm2"]))})
+    return rows

@@ -1,4 +1,4 @@
-"""Studies of the sharp engine: accuracy, coats of all sizes, modes, noise, growth."""
+"""Studies of the sharp engine and of statics: accuracy, coats of all sizes, modes, noise, branches."""
 
 import csv
 
@@ -67,6 +67,21 @@ def accuracy():
     )
 
 
+    long = f"{SHARP} --set output.shape_interval=20 --until 20"
+    runs = {"default": long, "fine": f"{long} --set boundary_integral.elements=140 --set time.tolerance=1e-8"}
+
+    def off(made):
+        return [{"run": "default"} | measures.largest_differences(made.run("fine"), made.run("default"))]
+
+    yield Study("sharp-to-20", 6, runs, (Table("sharp-to-20", (), off),))
+
+    certified = {name: f"{SHARP} {TO_BUDDING} {change}--certify --jobs 1" for name, change in CERTIFIED.items()}
+    yield Study("certificates", 2, certified, (Table("certificates", (), of_each("case", measures.certificate, certified)),))
+
+
+#: What is changed in the cases whose certificates are told.
+CERTIFIED = {"standard": "--until 1 ", "patch-28": "--set molecules.patch_radius=28 --until 2 "}
+
 #: Elements of runs that are too coarse, the last one for a coat of 70 nm.
 COARSE = (("80", "36"), ("60", "36"), ("50", "36"), ("40", "36"), ("30", "36"), ("20", "36"), ("80", "70"))
 
@@ -115,7 +130,32 @@ def radii():
         Column("shape", "shape"),
         Column("end_us", "end, µs", ".2f"),
     )
-    yield Study("twelve-radii", 4, runs, (Table("twelve-radii", columns, of_each("radius_nm", measures.patch, runs)),))
+
+    def extremes(made):
+        return measures.extremes_of_radii(made.rows("twelve-radii"))
+
+    tables = (Table("twelve-radii", columns, of_each("radius_nm", measures.patch, runs)), Table("twelve-radii-extremes", (), extremes, derived=True))
+    yield Study("twelve-radii", 4, runs, tables)
+
+
+def fickian():
+    """Necks of the standard case with Fickian molecules."""
+    runs = {"run": f"endoflow run boundary-integral cases/fickian.toml {QUIET} --set boundary_integral.accuracy=1e-4 --until 36"}
+
+    def rows(made):
+        return [{"time_us": f"{time}", "neck_nm": measures.at(made.run("run"), "neck_radius_nm", time)} for time in (2, 10, 20, 36)]
+
+    yield Study("fickian", 1, runs, (Table("fickian", (), rows),))
+
+
+def flow():
+    """The fluids' velocity while the standard case buds."""
+    runs = {"run": "endoflow run boundary-integral cases/standard.toml --set output.field_interval=0.2 --set output.shape_interval=0.2 --until 0.2"}
+    tables = (
+        Table("flow", (), lambda made: measures.flow(made.run("run"), 0.2, 4)),
+        Table("flow-membrane", (), lambda made: measures.membrane(made.run("run"), 0.2)),
+    )
+    yield Study("flow", 1, runs, tables)
 
 
 #: Coats whose perturbations are followed, nm.
@@ -171,8 +211,12 @@ def modes():
     )
 
 
+#: Coats whose ellipticity by thermal noise is followed, nm.
+TREMBLING = (28, 36, 40, 44)
+
+
 def noise():
-    """Thermal noise about the standard case."""
+    """Thermal noise about the standard case, and how elliptic it makes coats of other radii."""
     runs = {"run": f"{SHARP} --until 0.9", "modes": "endoflow modes {run} --noise --modes 1:4 --times 13 --tables-only"}
     columns = (
         Column("time_us", "time, µs"),
@@ -193,33 +237,22 @@ def noise():
         (
             Table("noise", columns, lambda made: measures.noise(made.directory("modes"), (0, 0.15, 0.3, 0.45, 0.6, 0.826, 0.9))),
             Table("noise-budding", (), lambda made: [{"run": "standard"} | measures.noise_of_budding(made.directory("modes"))]),
+            Table("noise-inherited", (), lambda made: measures.inherited_spread(made.rows("noise"), made.rows("noise-budding")), derived=True),
         ),
     )
 
+    runs = {}
+    for radius in TREMBLING:
+        runs[f"run-{radius}"] = f"{SHARP} --set molecules.patch_radius={radius} {TO_BUDDING} --until 1.6"
+        runs[f"{radius}"] = f"endoflow modes {{run-{radius}}} --noise --modes 1:2 --times 17 --tables-only"
 
-def growth():
-    """A coat that grows through the fold of its stationary shapes, at three speeds."""
-    ends = {"1e-3": 12000, "6e-4": 12000, "2.5e-4": 28000}
-    runs = {
-        v: f"endoflow run boundary-integral cases/growing-coat.toml {QUIET} --set molecules.edge_speed={v} --until {end}"
-        for v, end in ends.items()
-    }
-    rest = "--set molecules.exchange=none --set molecules.edge_speed=0 --set molecules.pool_area=0 --continue-in molecules.patch_radius=30"
-    branch = {"fold": f"endoflow statics cases/growing-coat.toml {rest}"}
+    def ellipses(made):
+        return [row for radius in TREMBLING for row in measures.ellipses(made.directory(f"{radius}"), radius)]
 
-    def rows(made):
-        fold = measures.folds(made.run("fold"))["fold_1"]
-        return [{"speed_nm_per_us": v} | measures.speed(made.run(v), fold) for v in runs]
+    def sections(made):
+        return [{"radius_nm": f"{radius}"} | measures.section(made.directory(f"{radius}"), made.run(f"run-{radius}")) for radius in TREMBLING]
 
-    columns = (
-        Column("speed_nm_per_us", "v, nm/µs"),
-        Column("budding_us", "budding, µs", ".1f"),
-        Column("coat_nm", "r_c, nm", ".5f"),
-        Column("beyond_nm", "beyond the fold, nm", ".5f"),
-        Column("cpu_s", "CPU, s", ".0f"),
-        Column("balance", "energy balance, at most", ".0e"),
-    )
-    yield Study("growth-speeds", 2, branch | runs, (Table("growth-speeds", columns, rows),))
+    yield Study("noise-of-radii", 5, runs, (Table("noise-of-radii", (), ellipses), Table("noise-sections", (), sections)))
 
 
 def branches():

@@ -24,6 +24,7 @@ def standard():
                 lambda made: [{"run": "to-20"} | measures.shape_of_standard(made.run("to-20")) | measures.cost(made.run("to-20"))],
             ),
             Table("standard-energy", (), lambda made: measures.energy(made.run("to-20"))),
+            Table("standard-history", (), lambda made: measures.early(made.run("to-20"))),
             Table("standard-shape", (), lambda made: measures.membrane(made.run("to-20"), 0.5)),
         ),
     )

@@ -4,6 +4,8 @@ import csv
 import io
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from results.writing import as_number, written
 from results.places import DATA
 
@@ -73,6 +75,12 @@ def read(name):
             lines.append(line)
     stored.rows = numbers(lines)
     return stored
+
+
+def columns(name, *wanted, **where):
+    """Columns of a table as arrays, nan where cells are empty, of the rows whose cells are those of where."""
+    rows = [row for row in read(name).rows if all(row[key] == value for key, value in where.items())]
+    return [np.array([np.nan if row[key] is None else float(row[key]) for row in rows]) for key in wanted]
 
 
 def numbers(lines):
