@@ -15,7 +15,7 @@ import locations
 
 sys.path.insert(0, str(locations.ROOT / "tools"))
 
-from results import command, figures, ink, measures, noisy_necks, other_studies, pages, places, studies, study, tables, writing  # noqa: E402
+from results import command, figures, ink, measures, other_studies, pages, places, studies, study, tables, writing  # noqa: E402
 
 REFRESH = "run `make results` (or `python3 tools/results build --pages` when no run is to be made anew)"
 
@@ -56,10 +56,6 @@ class Stored(unittest.TestCase):
         """A number of four digits that stands between markers stands nowhere without them."""
         found = [f"{page.name}: {number}" for page, number in pages.typed_by_hand()]
         self.assertEqual(found, [], "put it between <!-- value TABLE/ROW/COLUMN --> and <!-- end -->, or refer to the page that has it")
-
-    def test_study_of_a_page(self):
-        """The study of `endoflow infer` that is run is the one that its page shows."""
-        self.assertRegex(noisy_necks.STUDY.search((places.DOCS / "results" / "inference.md").read_text("utf-8"))[1], r"^\[study\]")
 
     def test_markers_are_whole(self):
         """One for each end; none at the start of a line, where Markdown takes the whole line for HTML."""

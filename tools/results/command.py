@@ -87,7 +87,6 @@ def make_run(study, label, build):
     if says(directory / DONE, command):
         return
     words = shlex.split(command.format_map({name: made.directory(name) for name in study.runs})) + ["-o", str(directory)]
-    words[0] = sys.executable if words[0] == "python3" else words[0]
     if says(directory / BEGUN, command) and (directory / "run.json").exists():
         words.append("--restart")
     elif directory.exists() and not says(directory / BEGUN, command):

@@ -74,31 +74,6 @@ def at_rest(run, rest):
     return row | {name: float(run.history[column][-1] / rest.history[column][-1] - 1) for name, column in columns.items()}
 
 
-def outcomes(rows):
-    """Rows of a map's table: where its runs are, and how they end."""
-    return [
-        {"run": f"{number}", "radius_nm": row["molecules.patch_radius"], "tension_pN_per_nm": row["membrane.rim_tension"]}
-        | {"outcome": row["outcome"], "alarms": row["alarms"] or ""}
-        for number, row in enumerate(rows)
-    ]
-
-
-def counts(rows):
-    """How many of a map's runs have each outcome, how many there are, and how many raised an alarm."""
-    ends = [row["outcome"] for row in rows]
-    found = [{"outcome": name, "runs": ends.count(name)} for name in dict.fromkeys(ends)]
-    return [*found, {"outcome": "all", "runs": len(rows)}, {"outcome": "alarmed", "runs": sum(1 for row in rows if row["alarms"])}]
-
-
-def boundaries(rows):
-    """The points of a map's boundaries."""
-    return [
-        {"point": f"{number}", "between": row["between"], "radius_nm": row["molecules.patch_radius"]}
-        | {"tension_pN_per_nm": row["membrane.rim_tension"]}
-        for number, row in enumerate(rows)
-    ]
-
-
 def stationary(run):
     """Where a branch of stationary shapes folds, and where its neck is 1 nm wide, which counts as closed."""
     folds = [fold["value"] for fold in run.record["notes"]["branch"]["folds"]] + [None, None]
@@ -107,49 +82,3 @@ def stationary(run):
     around = slice(closed[0], closed[0] - 2, -1) if len(closed) else None
     closes = float(np.interp(1, neck[around], value[around])) if len(closed) else None
     return {"fold_1": folds[0], "fold_2": folds[1], "closes": closes}
-
-
-def cost_of_both(sharp, diffuse):
-    """Processor times of both engines, and how far the diffuse one keeps its energy law and its area."""
-    h = diffuse.history
-    law = np.abs(h["energy_law_residual_pN_nm_per_us"] / h["viscous_dissipation_pN_nm_per_us"])
-    row = {"law": float(np.nanmax(law[1:])), "strain": float(h["area_strain_max"].max())}
-    return row | {"cpu_s": diffuse.record["cpu_s"], "cpu_sharp_s": sharp.record["cpu_s"]}
-
-
-def pulled(sharp, diffuse, times):
-    """A row for each time (µs): height and speed of a pole that is pulled, and relative differences of the diffuse engine."""
-
-    def speed(run, time):
-        before, after = (at(run, "bud_height_nm", time * factor) for factor in (0.99, 1.01))
-        return (after - before) / (0.02 * time)
-
-    rows = []
-    for time in times:
-        heights, speeds = [at(run, "bud_height_nm", time) for run in (sharp, diffuse)], [speed(run, time) for run in (sharp, diffuse)]
-        row = {"time_us": f"{time:g}", "height_sharp_nm": heights[0], "height": heights[1] / heights[0] - 1}
-        rows.append(row | {"speed_sharp_nm_per_us": speeds[0], "speed": speeds[1] / speeds[0] - 1})
-    return rows
-
-
-def vesicle(sharp, diffuse):
-    """A closed vesicle at the end: relative differences of energy and height from the sharp engine, of volume and area from the start."""
-    row = {"end_us": float(diffuse.history["time_us"][-1])}
-    for name, column in (("energy", "bending_energy_pN_nm"), ("height", "bud_height_nm")):
-        times = np.linspace(row["end_us"] / 200, row["end_us"], 400)
-        off = diffuse.history_at(column, times) / sharp.history_at(column, times) - 1
-        row |= {name: float(off[-1]), f"{name}_largest": float(np.abs(off).max())}
-    for name, column in (("volume", "volume_extracellular_nm3"), ("area", "membrane_area_nm2")):
-        values = diffuse.history[column]
-        row |= {name: float(values[-1] / values[0] - 1), f"{name}_largest": float(np.abs(values / values[0] - 1).max())}
-    return row | cost(diffuse)
-
-
-def from_fluid(run):
-    """What a coat has taken from a fluid, or from a reservoir."""
-    h = run.history
-    held = run.parameters["molecules"]["bulk"] != "none"
-    columns = {"molecules": "bulk_molecules", "corrected_nm2": "bulk_corrected_nm2", "balance": "bulk_balance_relative"}
-    row = {"gained_nm2": float(h["molecules_exchanged_nm2"][-1]), "supply": float(h["bulk_supply"][-1])}
-    row |= {name: float(np.abs(h[column]).max() if name == "balance" else h[column][-1]) if held else None for name, column in columns.items()}
-    return row | {"exchange": float(h["molecule_balance_relative"].max())} | cost(run)

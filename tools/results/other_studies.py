@@ -1,4 +1,4 @@
-"""Studies of the smooth case, and of the paper's items."""
+"""Studies of vesicles, of the smooth case, and of the paper's items."""
 
 import numpy as np
 
@@ -6,6 +6,22 @@ from endoflow.curves import local_cubic
 from results import measures
 from results.study import QUIET, Study, Table
 from results.tables import Column
+
+
+def vesicles():
+    """A closed prolate vesicle relaxes, in both engines."""
+    case = "cases/closed_vesicle.toml --set domain.spheroid_polar_axis=73.62 --set domain.spheroid_equatorial_axis=26.37 --until 5"
+    runs = {engine: f"endoflow run {engine} {case} {QUIET}" for engine in ("boundary-integral", "phase-field")}
+    columns = (
+        Column("time_us", "t, µs"),
+        Column("energy_sharp_pN_nm", "energy, sharp, pN nm", ".2f"),
+        *(Column(name, name, "+.3%") for name in ("energy", "height", "volume")),
+    )
+
+    def rows(made):
+        return measures.relaxation(made.run("boundary-integral"), made.run("phase-field"), (0.01, 0.1, 0.5, 1, 5))
+
+    yield Study("vesicle", 4, runs, (Table("vesicle", columns, rows),))
 
 
 def smooth():

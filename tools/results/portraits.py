@@ -1,9 +1,9 @@
-"""Figures of the flow around a bud, of what thermal noise makes of coats, of a posterior, and of a map of outcomes."""
+"""Figures of the flow around a bud, and of what thermal noise makes of coats."""
 
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from results import ink, tables
+from results import ink
 from results.tables import columns
 
 
@@ -63,67 +63,8 @@ def ellipses():
     return figure
 
 
-def posterior():
-    """Samples of both unknowns, the truth and the best fit, and the samples' distribution of each."""
-    stiffness, viscosity = columns("inference-posterior", "coat stiffness", "cytosol viscosity")
-    unknowns = tables.read("inference").rows
-    figure, grid = ink.panels(2, 2, (5, 4.6), gridspec_kw={"width_ratios": (3, 1), "height_ratios": (1, 3)})
-    (above, corner), (joint, beside) = grid
-    corner.set_axis_off()
-    joint.plot(stiffness, viscosity, linestyle="", marker=".", markersize=3, color=ink.SHARP[0])
-    for key, marker, colour, label in (("truth", "*", ink.DIFFUSE, "truth"), ("best", "P", ink.THIRD, "best fit")):
-        joint.plot(*(row[key] for row in unknowns), linestyle="", marker=marker, markersize=10, color=colour[0], label=label)
-    above.hist(stiffness, 24, color=ink.SHARP[0])
-    beside.hist(viscosity, 24, color=ink.SHARP[0], orientation="horizontal")
-    limits = [(row["prior_low"], row["prior_high"]) for row in unknowns]
-    for axes, row in ((above, unknowns[0]), (beside, unknowns[1])):
-        line = axes.axvline if axes is above else axes.axhline
-        for end in ("low", "high"):
-            line(row[end], color=ink.FAINT[0], linewidth=1, linestyle=":")
-        axes.tick_params(labelleft=False, labelbottom=False)
-        axes.grid(visible=False)
-    for axes in (above, joint):
-        axes.set_xlim(*limits[0])
-    for axes in (beside, joint):
-        axes.set_ylim(*limits[1])
-    joint.set(xlabel="coat stiffness (pN nm)", ylabel="cytosol viscosity (pN µs/nm²)")
-    joint.legend()
-    return figure
-
-
-#: How outcomes look: marker and colour.
-OUTCOMES = {
-    "flat": ("o", ink.GRID), "dome": ("o", ink.FAINT), "neck": ("D", ink.THIRD), "bud": ("^", ink.SHARP), "closed": ("s", ink.DIFFUSE),
-    "failed": ("x", ink.INK),
-}  # fmt: skip
-
-
-def outcomes():
-    """Outcomes of runs over coat and tension, the boundaries between them, and folds of stationary shapes."""
-    figure, axes = ink.panels(size=(7.2, 3.8))
-    rows = tables.read("phase-diagram").rows
-    for outcome, (marker, colour) in OUTCOMES.items():
-        own = [(row["radius_nm"], row["tension_pN_per_nm"]) for row in rows if row["outcome"] == outcome]
-        if own:
-            axes.plot(*zip(*own), linestyle="", marker=marker, markersize=4.5, color=colour[0], label=outcome)
-    axes.plot(*columns("phase-diagram-boundaries", "radius_nm", "tension_pN_per_nm"), "k.", markersize=2.5, color=ink.INK[0], label="boundary")
-    tension, *places = columns("phase-diagram-folds", "tension_pN_per_nm", "fold_1", "fold_2", "closes")
-    for radius, label in zip(places, ("fold at rest", None, "neck closes at rest")):
-        marker = "P" if label and "neck" in label else "*"
-        axes.plot(radius, tension, linestyle="", marker=marker, markersize=9, color=ink.INK[0], markerfacecolor="none", label=label)
-    axes.set_xlabel("coat's radius (nm)")
-    axes.set_ylabel("tension (pN/nm)")
-    axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
-    return figure
-
-
 #: {name of the file: (title, what draws it, the tables it shows)}.
 PORTRAITS = {
     "flow": ("Streamlines and velocities around a bud of the standard case", flow, ("flow", "flow-membrane")),
     "noise-ellipses": ("Ellipticity of buds and necks by thermal noise, coats of four radii", ellipses, ("noise-of-radii", "noise-sections")),
-    "posterior": ("Posterior of coat stiffness and cytosol viscosity", posterior, ("inference", "inference-posterior")),
-    "phase-diagram": (
-        "Outcomes over the coat's radius and tension", outcomes,
-        ("phase-diagram", "phase-diagram-boundaries", "phase-diagram-folds"),
-    ),
-}  # fmt: skip
+}

@@ -67,14 +67,6 @@ def accuracy():
     )
 
 
-    long = f"{SHARP} --set output.shape_interval=20 --until 20"
-    runs = {"default": long, "fine": f"{long} --set boundary_integral.elements=140 --set time.tolerance=1e-8"}
-
-    def off(made):
-        return [{"run": "default"} | measures.largest_differences(made.run("fine"), made.run("default"))]
-
-    yield Study("sharp-to-20", 6, runs, (Table("sharp-to-20", (), off),))
-
     certified = {name: f"{SHARP} {TO_BUDDING} {change}--certify --jobs 1" for name, change in CERTIFIED.items()}
     yield Study("certificates", 2, certified, (Table("certificates", (), of_each("case", measures.certificate, certified)),))
 

@@ -1,15 +1,13 @@
 """All studies, in the order in which they are made."""
 
-from results.inference_studies import inference
-from results.load_studies import growth, line_tension, phase_diagram, stationary
-from results.other_studies import paper, smooth
-from results.pair_studies import fluids, loads, vesicles
+from results.load_studies import growth, line_tension, stationary
+from results.other_studies import paper, smooth, vesicles
 from results.sharp_studies import accuracy, alarms, branches, fickian, flow, modes, noise, radii
 from results.standard_studies import layers, relatives, standard
 
 GROUPS = (
-    standard, relatives, layers, accuracy, alarms, radii, fickian, flow, modes, noise, growth, line_tension, phase_diagram, branches, stationary,
-    inference, vesicles, fluids, loads, smooth, paper,
+    standard, relatives, layers, accuracy, alarms, radii, fickian, flow, modes, noise, growth, line_tension, branches, stationary,
+    vesicles, smooth, paper,
 )  # fmt: skip
 
 STUDIES = tuple(study for group in GROUPS for study in group())
