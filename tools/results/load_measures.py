@@ -74,6 +74,31 @@ def at_rest(run, rest):
     return row | {name: float(run.history[column][-1] / rest.history[column][-1] - 1) for name, column in columns.items()}
 
 
+def outcomes(rows):
+    """Rows of a map's table: where its runs are, and how they end."""
+    return [
+        {"run": f"{number}", "radius_nm": row["molecules.patch_radius"], "tension_pN_per_nm": row["membrane.rim_tension"]}
+        | {"outcome": row["outcome"], "alarms": row["alarms"] or ""}
+        for number, row in enumerate(rows)
+    ]
+
+
+def counts(rows):
+    """How many of a map's runs have each outcome, how many there are, and how many raised an alarm."""
+    ends = [row["outcome"] for row in rows]
+    found = [{"outcome": name, "runs": ends.count(name)} for name in dict.fromkeys(ends)]
+    return [*found, {"outcome": "all", "runs": len(rows)}, {"outcome": "alarmed", "runs": sum(1 for row in rows if row["alarms"])}]
+
+
+def boundaries(rows):
+    """The points of a map's boundaries."""
+    return [
+        {"point": f"{number}", "between": row["between"], "radius_nm": row["molecules.patch_radius"]}
+        | {"tension_pN_per_nm": row["membrane.rim_tension"]}
+        for number, row in enumerate(rows)
+    ]
+
+
 def stationary(run):
     """Where a branch of stationary shapes folds, and where its neck is 1 nm wide, which counts as closed."""
     folds = [fold["value"] for fold in run.record["notes"]["branch"]["folds"]] + [None, None]

@@ -92,6 +92,43 @@ def line_tension():
     yield Study("line-tension", 1, runs | rests, tables)
 
 
+#: Tensions (pN/nm) whose stationary shapes are followed, by the names of their runs.
+FOLLOWED = {"half": "0.5", "one": "1", "two": "2"}
+
+
+def phase_diagram():
+    """What becomes of ready-made coats under tension, over the coat's radius and the tension."""
+    case = "cases/phase-diagram.toml"
+    runs = {
+        name: f"endoflow statics {case} --set molecules.patch_radius=18 --set membrane.rim_tension={tension} --continue-in molecules.patch_radius=44"
+        for name, tension in FOLLOWED.items()
+    }
+    vary = "--vary molecules.patch_radius=18:44 --vary membrane.rim_tension=0:3 --levels 1 --until 3"
+    folds = " ".join(f"--folds {{{name}}}" for name in FOLLOWED)
+    runs["map"] = f"endoflow map {case} {vary} {folds} --jobs 1"
+
+    def stationary(made):
+        return [{"tension_pN_per_nm": tension} | load_measures.stationary(made.run(name)) for name, tension in FOLLOWED.items()]
+
+    columns = (
+        Column("tension_pN_per_nm", "σ, pN/nm"),
+        Column("fold_1", "first fold, nm", ".2f"),
+        Column("fold_2", "second fold, nm", ".2f"),
+        Column("closes", "neck closes, nm", ".2f"),
+    )
+    yield Study(
+        "phase-diagram",
+        5,
+        runs,
+        (
+            Table("phase-diagram", (), lambda made: load_measures.outcomes(made.csv("map", "map.csv"))),
+            Table("phase-diagram-boundaries", (), lambda made: load_measures.boundaries(made.csv("map", "boundaries.csv"))),
+            Table("phase-diagram-counts", (), lambda made: load_measures.counts(made.csv("map", "map.csv"))),
+            Table("phase-diagram-folds", columns, stationary),
+        ),
+    )
+
+
 def stationary():
     """Stationary shapes of the paper's parameters: a coat of 22 nm with its molecules in three ways, and where branches end."""
     case = "endoflow statics cases/statics.toml"

@@ -1,9 +1,9 @@
-"""Figures of the flow around a bud, and of what thermal noise makes of coats."""
+"""Figures of the flow around a bud, of what thermal noise makes of coats, and of a map of outcomes."""
 
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from results import ink
+from results import ink, tables
 from results.tables import columns
 
 
@@ -63,8 +63,38 @@ def ellipses():
     return figure
 
 
+#: How outcomes look: marker and colour.
+OUTCOMES = {
+    "flat": ("o", ink.GRID), "dome": ("o", ink.FAINT), "neck": ("D", ink.THIRD), "bud": ("^", ink.SHARP), "closed": ("s", ink.DIFFUSE),
+    "failed": ("x", ink.INK),
+}  # fmt: skip
+
+
+def outcomes():
+    """Outcomes of runs over coat and tension, the boundaries between them, and folds of stationary shapes."""
+    figure, axes = ink.panels(size=(7.2, 3.8))
+    rows = tables.read("phase-diagram").rows
+    for outcome, (marker, colour) in OUTCOMES.items():
+        own = [(row["radius_nm"], row["tension_pN_per_nm"]) for row in rows if row["outcome"] == outcome]
+        if own:
+            axes.plot(*zip(*own), linestyle="", marker=marker, markersize=4.5, color=colour[0], label=outcome)
+    axes.plot(*columns("phase-diagram-boundaries", "radius_nm", "tension_pN_per_nm"), linestyle="", marker=".", markersize=2.5, color=ink.INK[0], label="boundary")
+    tension, *places = columns("phase-diagram-folds", "tension_pN_per_nm", "fold_1", "fold_2", "closes")
+    for radius, label in zip(places, ("fold at rest", None, "neck closes at rest")):
+        marker = "P" if label and "neck" in label else "*"
+        axes.plot(radius, tension, linestyle="", marker=marker, markersize=9, color=ink.INK[0], markerfacecolor="none", label=label)
+    axes.set_xlabel("coat's radius (nm)")
+    axes.set_ylabel("tension (pN/nm)")
+    axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+    return figure
+
+
 #: {name of the file: (title, what draws it, the tables it shows)}.
 PORTRAITS = {
     "flow": ("Streamlines and velocities around a bud of the standard case", flow, ("flow", "flow-membrane")),
     "noise-ellipses": ("Ellipticity of buds and necks by thermal noise, coats of four radii", ellipses, ("noise-of-radii", "noise-sections")),
-}
+    "phase-diagram": (
+        "Outcomes over the coat's radius and tension", outcomes,
+        ("phase-diagram", "phase-diagram-boundaries", "phase-diagram-folds"),
+    ),
+}  # fmt: skip
