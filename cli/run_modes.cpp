@@ -48,6 +48,10 @@ int run(int argc, char** argv) {
     CLI::Option* const with_noise =
         app.add_flag("--noise", noise, "thermal noise about the run as well, of modes 0 to LAST");
     app.add_option("--temperature", temperature, "of the noise, in kelvin [310]")->type_name("K")->needs(with_noise);
+    app.add_option("--ensemble", request.ensemble, "as many nonlinear runs from random starts, to check the noise [0]")
+        ->type_name("N")
+        ->needs(with_noise);
+    app.add_option("--seed", request.seed, "of their starts [1]")->type_name("N");
     bool tables_only = false;
     app.add_flag("--tables-only", tables_only, "no plots, no page, no surfaces");
     if (!parse(app, argc, argv)) return 0;

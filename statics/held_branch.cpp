@@ -127,7 +127,7 @@ std::optional<HeldFault> fault_of(const HeldCase& held, const PiecewiseSolution&
 
 HeldState find_held_neck(const Parameters& parameters, const Resolution& resolution) {
     Parameters free = parameters;
-    free.membrane.pole_force = free.membrane.coat_force = 0;
+    free.membrane.pole_force = free.membrane.coat_force = free.membrane.collar_force = 0;
     free.fluid.pressure_difference = 0;
     const GaussRule rule(resolution.points);
     const auto open = shape_with_neck(free, resolution);
@@ -147,6 +147,7 @@ HeldState find_held_neck(const Parameters& parameters, const Resolution& resolut
     state = with_parameter(state, "fluid.pressure_difference", 0, parameters.fluid.pressure_difference, resolution);
     state = with_parameter(state, "membrane.pole_force", 0, parameters.membrane.pole_force, resolution);
     state = with_parameter(state, "membrane.coat_force", 0, parameters.membrane.coat_force, resolution);
+    state = with_parameter(state, "membrane.collar_force", 0, parameters.membrane.collar_force, resolution);
     if (const auto fault = fault_of(state.held, state.point.solution, rule))
         throw SolverError(name_of(*fault), fmt::format("at {:.6g} nm {}", state.held.radius, text_of(*fault)), remedy);
     return state;

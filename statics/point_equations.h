@@ -66,6 +66,7 @@ struct MaterialPoint {
     Number pressure;       // p, pN/nm²
     Number stress;         // 2 (∂e/∂|∇c|²) (dc/da)², the tension of c's gradient over r², pN/nm³
     Number force, spread;  // Z and Z/r²: minus what pulls along z between the pole and a, over 2π, pN and pN/nm²
+    Number squeeze;        // −f_r/r, f_r what rides on the material along r, pN/nm³
 };
 
 /// ∫ c da between the pole and a over that of the whole membrane.
@@ -103,6 +104,11 @@ template <class Number, class States>
         if (material.loads.coat_force != 0)
             pull = pull + material.loads.coat_force * coat_within(material, y, a, point.c);
         point.force = (-0.5 / std::numbers::pi) * pull;
+    }
+    if (material.loads.radial() && !on_axis) {
+        const double r2 = value_of(y[state::r_squared]), by_r = 1 / std::sqrt(r2);
+        point.squeeze = -1.0 * material.loads.radial_force(Number(2 * std::numbers::pi * a)) *
+                        chain(Number(y[state::r_squared]), by_r, -0.5 * by_r / r2);
     }
     point.spread = on_axis ? Number(0.0) : point.force / y[state::r_squared];
     return point;
@@ -181,7 +187,7 @@ template <class Number, class States>
     by_a[state::hoop] = w * anisotropy;
     by_a[state::moment] = thrust * hoop + (point.spread - half_pressure) * w;  // normal force balance, (A.25)
     by_a[state::thrust] =
-        m * anisotropy + point.stress - (point.spread + half_pressure) * hoop;  // radial force balance
+        m * anisotropy + point.stress - (point.spread + half_pressure) * hoop + point.squeeze;  // radial force balance
     by_a[state::height] = -hoop;
     if (setting.material.closed) {
         by_a[state::volume] = y * hoop;

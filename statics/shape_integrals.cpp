@@ -41,7 +41,11 @@ ShapeIntegrals shape_integrals(const StationaryCase& stationary, const Piecewise
                 const PointOfShape point = point_of_shape(stationary, a, y);
                 return edge.density(point.total_curvature, point.c, point.squared_gradient).value;
             }),
-            coat - ring};
+            coat - ring,
+            loads.radial() ? over([&](double a, const Eigen::VectorXd& y) {
+                return std::sqrt(y(state::r_squared)) * loads.collar_share(two_pi * a);
+            })
+                           : 0.0};
 }
 
 }  // namespace endoflow::statics

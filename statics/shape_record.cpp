@@ -43,7 +43,10 @@ const std::vector<OwnColumn<ShapeRecord>>& own_shape_columns() {
         {"coat_force_pN", "F_a", [](const R& r) { return r.loads.coat_force; }},
         {"coat_extension_nm", "z̄_c − z̄_ring: how far the coat's force has pulled; without a ring over the rim",
          [](const R& r) { return r.integrals.coat_extension; }},
-        {"potential_pN_nm", "𝒢 = E + E_c + σ A − p V − F z̄ − F_a (z̄_c − z̄_ring)",
+        {"collar_force_pN", "F_d", [](const R& r) { return r.loads.collar_force; }},
+        {"collar_radius_nm", "r̄ of the membrane under the collar; empty without one",
+         [](const R& r) { return r.loads.radial() ? std::optional(r.integrals.collar_radius) : std::nullopt; }},
+        {"potential_pN_nm", "𝒢 = E + E_c + σ A − p V − F z̄ − F_a (z̄_c − z̄_ring) + F_d r̄",
          [](const R& r) { return r.integrals.potential(r.loads); }},
         {"line_energy_pN_nm", "E_c of the coat's edge, under energetic coupling",
          [](const R& r) { return r.integrals.edge; }},
@@ -81,6 +84,7 @@ Json write_state(StateWriter& writer, const Parameters& named, const Parameters&
     if (coupled || !loads.none() || place.hold) figures["potential_pN_nm"] = integrals.potential(loads);
     if (loads.pole_force != 0) figures["pole_extension_nm"] = integrals.extension;
     if (loads.coat_force != 0) figures["coat_extension_nm"] = integrals.coat_extension;
+    if (loads.radial()) figures["collar_radius_nm"] = integrals.collar_radius;
     if (place.hold) figures["neck_force_pN"] = place.hold->force;
     return figures;
 }

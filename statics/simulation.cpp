@@ -29,9 +29,9 @@ std::vector<std::string> continuable(const Parameters& parameters) {
     const std::vector<std::string> more =
         is_vesicle(parameters)
             ? std::vector<std::string>{"domain.spheroid_polar_axis", "domain.spheroid_equatorial_axis"}
-            : std::vector<std::string>{"molecules.patch_radius",   "molecules.interface_width", "domain.radius",
-                                       "membrane.rim_tension",     "membrane.pole_force",       "membrane.coat_force",
-                                       "fluid.pressure_difference"};
+            : std::vector<std::string>{"molecules.patch_radius", "molecules.interface_width", "domain.radius",
+                                       "membrane.rim_tension",   "membrane.pole_force",       "membrane.coat_force",
+                                       "membrane.collar_force",  "fluid.pressure_difference"};
     keys.insert(keys.end(), more.begin(), more.end());
     if (energetically_coupled(parameters.molecules)) keys.emplace_back("molecules.line_energy");
     return keys;
@@ -49,7 +49,7 @@ std::optional<double> number(const std::string& text) {
 /// box.
 bool is_load(const std::string& key) {
     return key == "membrane.rim_tension" || key == "membrane.pole_force" || key == "membrane.coat_force" ||
-           key == "fluid.pressure_difference";
+           key == "membrane.collar_force" || key == "fluid.pressure_difference";
 }
 
 std::string side_reached(const Parameters& parameters, const PiecewiseSolution& solution) {
@@ -173,6 +173,10 @@ void require_stationary_model(const Parameters& parameters, const Request& reque
         if (request.family) throw InputError("command line: --family goes with domain.kind = \"free-space\" only");
         (void)resolved(parameters, request);
     }
+    if (loads_of(parameters).collar_waits())
+        throw InputError(
+            "membrane.collar_force: a stationary shape needs membrane.collar_position, too; or hold its neck with "
+            "--hold neck_radius=R1:R2");
     if (!parameters.membrane.inextensible)
         throw InputError("membrane.inextensible = false: stationary shapes exist for an inextensible membrane only");
 }

@@ -157,7 +157,9 @@ bool reaches_top_or_bottom(const Parameters& parameters, const PiecewiseSolution
 }
 
 Search search_stationary_state(const Parameters& parameters, const Resolution& resolution) {
-    Parameters pulled = parameters;
+    Parameters on_coat = parameters;
+    on_coat.membrane.collar_force = 0;
+    Parameters pulled = on_coat;
     pulled.membrane.coat_force = 0;
     Parameters pushed = pulled;
     pushed.membrane.pole_force = 0;
@@ -166,7 +168,8 @@ Search search_stationary_state(const Parameters& parameters, const Resolution& r
     Search search = search_along(free, resolution, neck_is_open);
     add_load(search, free, pushed, "fluid.pressure_difference", resolution);
     add_load(search, pushed, pulled, "membrane.pole_force", resolution);
-    add_load(search, pulled, parameters, "membrane.coat_force", resolution);
+    add_load(search, pulled, on_coat, "membrane.coat_force", resolution);
+    add_load(search, on_coat, parameters, "membrane.collar_force", resolution);
     return search;
 }
 

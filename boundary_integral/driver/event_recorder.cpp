@@ -1,5 +1,7 @@
 #include "boundary_integral/driver/event_recorder.h"
 
+#include "shared/numerics/level_crossing.h"
+
 namespace endoflow::boundary_integral {
 
 EventRecorder::EventRecorder(const Parameters& parameters, const MembraneDynamics& dynamics, RunOutput& output)
@@ -8,13 +10,22 @@ EventRecorder::EventRecorder(const Parameters& parameters, const MembraneDynamic
       domain_(parameters.domain),
       events_(parameters.output, parameters.boundary_integral.neck_closed_radius) {}
 
-std::optional<ExitReason> EventRecorder::look(const StiffIntegrator& integrator, HistoryRecorder& history,
-                                              OutputSeries& series) {
-    const auto radius = [&](double time) {
+std::function<double(double time)> EventRecorder::neck_in(const StiffIntegrator& integrator) const {
+    return [&](double time) {
         return neck_radius(find_neck(dynamics_.space(), dynamics_.unpack(integrator.state_at(time))));
     };
+}
+
+std::optional<double> EventRecorder::collar_due(const StiffIntegrator& integrator) const {
+    if (!dynamics_.loads().collar_waits()) return std::nullopt;
     const double end = integrator.time();
-    for (const NeckEvent& event : events_.within(end - integrator.last_step(), end, radius)) {
+    return falls_below(neck_in(integrator), end - integrator.last_step(), end, Loads::collar_radius);
+}
+
+std::optional<ExitReason> EventRecorder::look(double end, const StiffIntegrator& integrator, HistoryRecorder& history,
+                                              OutputSeries& series) {
+    for (const NeckEvent& event :
+         events_.within(integrator.time() - integrator.last_step(), end, neck_in(integrator))) {
         record(event, integrator, history, series);
         if (event.ends_run) return event.ends_run;
     }

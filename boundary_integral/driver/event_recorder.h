@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "boundary_integral/driver/history_recorder.h"
@@ -15,9 +16,12 @@ class EventRecorder {
   public:
     EventRecorder(const Parameters& parameters, const MembraneDynamics& dynamics, RunOutput& output);
 
-    /// Records the events inside the integrator's last step. Says when one ends the run.
-    [[nodiscard]] std::optional<ExitReason> look(const StiffIntegrator& integrator, HistoryRecorder& history,
-                                                 OutputSeries& series);
+    /// When the neck that a collar waits for came inside the integrator's last step.
+    [[nodiscard]] std::optional<double> collar_due(const StiffIntegrator& integrator) const;
+
+    /// Records the events inside the integrator's last step up to `end`. Says when one ends the run.
+    [[nodiscard]] std::optional<ExitReason> look(double end, const StiffIntegrator& integrator,
+                                                 HistoryRecorder& history, OutputSeries& series);
 
     void save(Checkpoint& checkpoint) const { checkpoint.scalars["budded"] = events_.budded() ? 1.0 : 0.0; }
     void restore(const Checkpoint& checkpoint) { events_.restore(checkpoint.scalar("budded") != 0.0); }
@@ -27,6 +31,8 @@ class EventRecorder {
     RunOutput& output_;
     DomainParameters domain_;
     NeckEvents events_;
+
+    [[nodiscard]] std::function<double(double time)> neck_in(const StiffIntegrator& integrator) const;
 
     void record(const NeckEvent& event, const StiffIntegrator& integrator, HistoryRecorder& history,
                 OutputSeries& series);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "boundary_integral/driver/event_recorder.h"
@@ -135,11 +136,14 @@ class RunLoop {
             if (output_.stop_requested()) return ExitReason::interrupted;
             if (output_.checkpoint_due()) output_.write_checkpoint(resume_);
             advance();
-            const Evaluation accepted = dynamics_.evaluate(integrator_.time(), integrator_.state(), operators_);
-            flow_.add(integrator_.time(), accepted);
-            if (const auto reason = events_.look(integrator_, history_, series_)) return *reason;
-            series_.write_until(integrator_.time(), integrator_);
-            history_.record(integrator_.time(), accepted, integrator_);
+            const std::optional<double> collar = events_.collar_due(integrator_);
+            const double end = collar.value_or(integrator_.time());
+            const Evaluation accepted = dynamics_.evaluate(end, integrator_.state_at(end), operators_);
+            flow_.add(end, accepted);
+            if (const auto reason = events_.look(end, integrator_, history_, series_)) return *reason;
+            series_.write_until(end, integrator_);
+            history_.record(end, accepted, integrator_);
+            if (collar) place_collar(end, accepted.state);
         }
         if (!at_end()) return std::nullopt;
         series_.write_shape_at(integrator_.time(), integrator_);
@@ -180,6 +184,7 @@ class RunLoop {
         checkpoint.scalars["elements"] = elements_.back();
         checkpoint.arrays["refinement_times"] = refinements_;
         checkpoint.arrays["refinement_elements"] = elements_;
+        if (dynamics_.loads().radial()) checkpoint.scalars["collar_place"] = dynamics_.loads().collar_place;
         history_.save(checkpoint);
         events_.save(checkpoint);
         return checkpoint;
@@ -204,10 +209,24 @@ class RunLoop {
         begin_section();
     }
 
+    /// What is left of the last step is made anew, with the collar.
+    void place_collar(double time, const MembraneState& state) {
+        series_.write_shape_at(time, integrator_);
+        const double area = area_within(dynamics_.space(), state, find_neck(dynamics_.space(), state)->t);
+        dynamics_.place_collar(area);
+        output_.record_event("collar", time, measure_shape(dynamics_.space(), state, parameters_.domain));
+        output_.log_info(
+            fmt::format("the collar sits at a material radius of {:.6g} nm", std::sqrt(area / std::numbers::pi)));
+        start_ = integrator_.start_anew_at(time, first_step(parameters_));
+        next_start_ = integrator_.statistics().steps + parameters_.boundary_integral.restart_interval;
+        begin_section();
+    }
+
     StartingPoint start() {
         if (from_) {
             history_.restore(*from_);
             events_.restore(*from_);
+            if (from_->scalars.contains("collar_place")) dynamics_.place_collar(from_->scalar("collar_place"));
             refinements_ = from_->array("refinement_times");
             elements_ = from_->array("refinement_elements");
             if (refinements_.size() > 1) history_.settle(refinements_.back());

@@ -1,7 +1,7 @@
 #pragma once
 
 // The membrane in the box as a system of ordinary differential equations y' = F(t, y), with the Jacobian an implicit
-// integrator needs. Time enters by the coat's maturity alone.
+// integrator needs. Time enters by the coat's maturity; and F is another one when a collar has been placed.
 
 #include <Eigen/Core>
 #include <memory>
@@ -46,6 +46,9 @@ class MembraneDynamics {
     [[nodiscard]] BendingModel model(double time) const { return bending_model(parameters_, time); }
     [[nodiscard]] const MaturationLaw& maturation() const { return maturation_; }
     [[nodiscard]] const TransportLaw& transport() const { return transport_; }
+    [[nodiscard]] const Loads& loads() const { return loads_; }
+    /// From now on the collar sits on the material with this area between it and the pole [nm²].
+    void place_collar(double area) { loads_.collar_place = area; }
     [[nodiscard]] Index size() const { return free_radial() + free_axial() + space_.axial_count(); }
 
     /// Flat membrane or spheroid with the coat's equilibrium profile on a mesh that resolves it.

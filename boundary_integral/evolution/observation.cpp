@@ -54,6 +54,20 @@ std::optional<Neck> find_neck(const MembraneSpace& space, const MembraneState& s
     return find_neck(SplineMeridian(space, state));
 }
 
+double area_within(const MembraneSpace& space, const MembraneState& state, double xi) {
+    const QuadratureRule rule = gauss_legendre(static_cast<int>(space.points_per_element()));
+    double area = 0.0;
+    for (double begin = 0.0; begin < xi; begin += space.element_width()) {
+        const double half = 0.5 * (std::min(begin + space.element_width(), xi) - begin);
+        for (std::size_t q = 0; q < rule.nodes.size(); ++q) {
+            const double at = begin + half * (1.0 + rule.nodes[q]);
+            const CurvePoint p = curve_point(space.radial().basis(at), space.axial().basis(at), state);
+            area += two_pi * half * rule.weights[q] * p.r * p.g;
+        }
+    }
+    return area;
+}
+
 ShapeMeasures measure_shape(const MembraneSpace& space, const MembraneState& state, const DomainParameters& domain) {
     const MembraneSamples samples = sample(space, state);
     ShapeMeasures result;

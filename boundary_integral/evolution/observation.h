@@ -15,6 +15,9 @@ namespace endoflow::boundary_integral {
 /// The neck of the spline curve; its t is ξ.
 [[nodiscard]] std::optional<Neck> find_neck(const MembraneSpace& space, const MembraneState& state);
 
+/// The membrane's area between the axis and ξ, nm².
+[[nodiscard]] double area_within(const MembraneSpace& space, const MembraneState& state, double xi);
+
 /// What observables.h defines, of the spline curve itself: exact integrals and extrema over the Gauss points.
 [[nodiscard]] ShapeMeasures measure_shape(const MembraneSpace& space, const MembraneState& state,
                                           const DomainParameters& domain);

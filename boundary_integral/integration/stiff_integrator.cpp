@@ -124,7 +124,18 @@ StiffIntegrator::Statistics& StiffIntegrator::Statistics::operator+=(const Stati
 }
 
 StartingPoint StiffIntegrator::start_anew() {
-    StartingPoint start{time_, first_step(), state()};
+    return start_from(time_, first_step());
+}
+
+StartingPoint StiffIntegrator::start_anew_at(double time, double first) {
+    values_of(y_.get()) = state_at(time);
+    time_ = time;
+    return start_from(time, first);
+}
+
+/// From y_ on.
+StartingPoint StiffIntegrator::start_from(double time, double first) {
+    StartingPoint start{time, first, state()};
     error_test_failures_before_ = statistics_.error_test_failures;
     convergence_failures_before_ = statistics_.convergence_failures;
     begun_.reset();  // a resumed integration begins a step for the first rate, too

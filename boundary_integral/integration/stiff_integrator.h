@@ -61,6 +61,9 @@ class StiffIntegrator {
     /// Returns where from.
     [[nodiscard]] StartingPoint start_anew();
 
+    /// The same from a time inside the last step on, where F becomes another one, with a first step of `first` [µs].
+    [[nodiscard]] StartingPoint start_anew_at(double time, double first);
+
     [[nodiscard]] double time() const { return time_; }
     [[nodiscard]] Eigen::VectorXd state() const { return values_of(y_.get()); }
     [[nodiscard]] double last_step() const { return last_step_; }
@@ -96,6 +99,7 @@ class StiffIntegrator {
     CvodeHandle cvode_;  // destroyed before what it uses
 
     void set_up(const StartingPoint& start, const StepLimits& limits);
+    [[nodiscard]] StartingPoint start_from(double time, double first);
     [[nodiscard]] double first_step() const;
     [[nodiscard]] Eigen::VectorXd derivative(double time, int order) const;
     template <class Work>

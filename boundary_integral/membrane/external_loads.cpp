@@ -39,17 +39,25 @@ Eigen::MatrixXd running_integral(const MembraneSpace& space, const Eigen::Matrix
     return result;
 }
 
+/// Along r and along z.
+struct MaterialForce {
+    LabelJet radial, axial;
+};
+
 /// What rides on the material per area at the Gauss points [pN/nm²] and its derivative by the area from the pole.
-std::vector<LabelJet> material_forces(const MembraneSpace& space, const MembraneSamples& samples, const Loads& loads) {
+std::vector<MaterialForce> material_forces(const MembraneSpace& space, const MembraneSamples& samples,
+                                           const Loads& loads) {
     Eigen::VectorXd density(space.points());
     for (Index i = 0; i < space.points(); ++i) {
         const CurvePoint& p = samples.curve[static_cast<std::size_t>(i)];
         density[i] = 2.0 * std::numbers::pi * p.r * p.g;
     }
     const Eigen::MatrixXd area = running_integral(space, density);
-    std::vector<LabelJet> forces;
-    for (Index i = 0; i < space.points(); ++i)
-        forces.push_back(loads.material_force(LabelJet::variable(area(i, 0), 0)));
+    std::vector<MaterialForce> forces;
+    for (Index i = 0; i < space.points(); ++i) {
+        const auto a = LabelJet::variable(area(i, 0), 0);
+        forces.push_back({loads.radial_force(a), loads.material_force(a)});
+    }
     return forces;
 }
 
@@ -68,23 +76,27 @@ Eigen::VectorXd external_load(const MembraneSpace& space, const MembraneSamples&
     Eigen::VectorXd load = Eigen::VectorXd::Zero(space.curve_count());
     if (loads.none()) return load;
     if (loads.pressure != 0.0) load += loads.pressure * volume_gradient(space, samples).transpose();
-    if (loads.vertical()) {
-        const std::vector<LabelJet> on_material = material_forces(space, samples, loads);
+    if (loads.vertical() || loads.radial()) {
+        const std::vector<MaterialForce> on_material = material_forces(space, samples, loads);
         const double on_coat = force_on_coat(space, samples, loads);
         for (std::size_t i = 0; i < space.xi.size(); ++i) {
             const CurvePoint& p = samples.curve[i];
-            const BasisRow& axial = space.axial_rows[i];
-            const double force = space.weight[i] * p.r * p.g * (on_material[i].value + on_coat * samples.c[i]);
-            for (std::size_t j = 0; j < 6; ++j)
-                load[space.radial_count() + axial.index[j]] += force * axial.value[0][j];
+            const BasisRow &radial = space.radial_rows[i], &axial = space.axial_rows[i];
+            const double area = space.weight[i] * p.r * p.g;
+            const double along_r = area * on_material[i].radial.value,
+                         along_z = area * (on_material[i].axial.value + on_coat * samples.c[i]);
+            for (std::size_t j = 0; j < 6; ++j) {
+                load[radial.index[j]] += along_r * radial.value[0][j];
+                load[space.radial_count() + axial.index[j]] += along_z * axial.value[0][j];
+            }
         }
     }
     load[space.radial_count() - 1] += loads.rim_tension * samples.rim_radius;
     return load;
 }
 
-VerticalLoadDerivatives vertical_load_derivatives(const MembraneSpace& space, const MembraneSamples& samples,
-                                                  const Loads& loads) {
+CarriedLoadDerivatives carried_load_derivatives(const MembraneSpace& space, const MembraneSamples& samples,
+                                                const Loads& loads) {
     const Index offset = space.radial_count();
     Eigen::MatrixXd density = Eigen::MatrixXd::Zero(space.points(), space.curve_count());  // variation of r g
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
@@ -97,7 +109,7 @@ VerticalLoadDerivatives vertical_load_derivatives(const MembraneSpace& space, co
         }
     }
     const Eigen::MatrixXd area = 2.0 * std::numbers::pi * running_integral(space, density);
-    const std::vector<LabelJet> on_material = material_forces(space, samples, loads);
+    const std::vector<MaterialForce> on_material = material_forces(space, samples, loads);
     const double on_coat = force_on_coat(space, samples, loads);
     // Variations of ∫ c r g dξ.
     Eigen::RowVectorXd coat_by_curve = Eigen::RowVectorXd::Zero(space.curve_count());
@@ -111,19 +123,23 @@ VerticalLoadDerivatives vertical_load_derivatives(const MembraneSpace& space, co
     }
     // F_a/∫ c dA falls by this part of itself for each nm² that ∫ c r g dξ gains.
     const double per_coat = loads.coat_force == 0.0 ? 0.0 : 2.0 * std::numbers::pi * on_coat / loads.coat_force;
-    VerticalLoadDerivatives result{Eigen::MatrixXd::Zero(space.curve_count(), space.curve_count()),
-                                   Eigen::MatrixXd::Zero(space.curve_count(), space.axial_count())};
+    CarriedLoadDerivatives result{Eigen::MatrixXd::Zero(space.curve_count(), space.curve_count()),
+                                  Eigen::MatrixXd::Zero(space.curve_count(), space.axial_count())};
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
         const CurvePoint& p = samples.curve[i];
-        const BasisRow& axial = space.axial_rows[i];
+        const BasisRow &radial = space.radial_rows[i], &axial = space.axial_rows[i];
         const auto row = static_cast<Index>(i);
         const double weight = space.weight[i], area_element = p.r * p.g, coat = on_coat * samples.c[i];
+        const auto ridden = [&](const LabelJet& force) -> Eigen::RowVectorXd {
+            return weight * (force.value * density.row(row) + area_element * force.partial[0] * area.row(row));
+        };
+        const Eigen::RowVectorXd radial_by_curve = ridden(on_material[i].radial);
         const Eigen::RowVectorXd by_curve =
-            weight * ((on_material[i].value + coat) * density.row(row) +
-                      area_element * (on_material[i].partial[0] * area.row(row) - per_coat * coat * coat_by_curve));
+            ridden(on_material[i].axial) + weight * coat * (density.row(row) - area_element * per_coat * coat_by_curve);
         Eigen::RowVectorXd by_c = -weight * area_element * per_coat * coat * coat_by_c;
         for (std::size_t j = 0; j < 6; ++j) by_c[axial.index[j]] += weight * area_element * on_coat * axial.value[0][j];
         for (std::size_t j = 0; j < 6; ++j) {
+            result.by_curve.row(radial.index[j]) += radial.value[0][j] * radial_by_curve;
             result.by_curve.row(offset + axial.index[j]) += axial.value[0][j] * by_curve;
             result.by_c.row(offset + axial.index[j]) += axial.value[0][j] * by_c;
         }

@@ -34,15 +34,17 @@ std::vector<std::string> as_overrides(const RunRecord& record) {
     return overrides;
 }
 
-/// The linearised membrane is inextensible, in fluid, and no force pulls at its pole or coat.
+/// The linearised membrane is inextensible, in fluid, and no force pulls at its pole, coat or neck.
 void require_modelled(const Parameters& p, const std::string& source) {
     if (p.fluid.dynamics != Dynamics::flow || !p.membrane.inextensible)
         throw InputError(source + ": modes are those of an inextensible membrane in fluid");
     require_no_maturation(p, "modes of a run");
-    if (loads_of(p).vertical())
-        throw InputError(source +
-                         ": modes of a membrane under membrane.pole_force or membrane.coat_force are not modelled: the "
-                         "force rides on the material, whose displacement along the membrane the modes do not follow");
+    if (loads_of(p).vertical() || loads_of(p).collar_force != 0)
+        throw InputError(
+            source +
+            ": modes of a membrane under membrane.pole_force, membrane.coat_force or membrane.collar_force are "
+            "not modelled: the force rides on the material, whose displacement along the membrane the modes do not "
+            "follow");
 }
 
 std::string group(std::size_t index) {

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "boundary_integral/modes/mode_files.h"
+#include "boundary_integral/modes/noise_ensemble.h"
 #include "boundary_integral/modes/noise_files.h"
+#include "shared/output/atomic_file.h"
 #include "shared/output/run_directory.h"
 #include "shared/support/error.h"
 
@@ -43,7 +45,9 @@ void write_growth(const ModesRequest& request, const AlongRun& run, const Progre
     progress(fmt::format("perturbations followed in {} steps", growth.steps()));
 }
 
-void write_noise(const ModesRequest& request, const AlongRun& run, const Progress& progress) {
+/// Returns the shape at each time.
+std::vector<NoisyShape> write_noise(const ModesRequest& request, const AlongRun& run, const Progress& progress) {
+    std::vector<NoisyShape> shapes;
     NoiseFiles files(request.directory, run, *request.temperature);
     NoiseGrowth growth(run, *request.temperature, request.tolerance);
     for (const double time : times_of(run.trajectory(), request.times)) {
@@ -54,9 +58,36 @@ void write_noise(const ModesRequest& request, const AlongRun& run, const Progres
             fmt::format("t = {:.6g} µs   height {:.4g} ± {:.2g} nm", time, shape.height, shape.height_spread.total);
         if (shape.bud) line += fmt::format("   neck {:.4g} ± {:.2g} nm", shape.bud->neck_radius, shape.bud->neck.total);
         progress(line);
+        shapes.push_back(shape);
     }
     files.finish(growth);
     progress(fmt::format("noise followed in {} steps", growth.steps()));
+    return shapes;
+}
+
+/// Beside the numbers of the members, the linear ones that they are to agree with: one shape for each time.
+void write_ensemble(const ModesRequest& request, const AlongRun& run, const std::vector<NoisyShape>& linear,
+                    const Progress& progress) {
+    const std::vector<double> times = times_of(run.trajectory(), request.times);
+    NoiseEnsemble ensemble(run, *request.temperature, request.seed);
+    constexpr std::size_t between_lines = 20;
+    while (ensemble.members() < request.ensemble) {
+        ensemble.add(std::min(between_lines, request.ensemble - ensemble.members()), times);
+        progress(fmt::format("{} of {} nonlinear runs", ensemble.members(), request.ensemble));
+    }
+    std::string table =
+        "time_us,members,height_mean_nm,height_rms_nm,height_inherited_nm,neck_mean_nm,neck_rms_nm,"
+        "neck_inherited_nm\n";
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        const SampleSpread height = ensemble.height(i), neck = ensemble.neck(i);
+        table += fmt::format("{:.9g},{},{:.6g},{:.6g},{:.6g}", times[i], ensemble.members(), height.mean,
+                             height.deviation, linear[i].height_spread.inherited);
+        if (linear[i].bud && std::isfinite(neck.mean))
+            table += fmt::format(",{:.6g},{:.6g},{:.6g}\n", neck.mean, neck.deviation, linear[i].bud->neck.inherited);
+        else
+            table += ",,,\n";
+    }
+    write_file_atomically(request.directory / "noise_ensemble.csv", table);
 }
 
 void require_noise(const ModesRequest& request, const RecordedRun& run) {
@@ -78,12 +109,16 @@ void write_modes(const ModesRequest& request, const Progress& progress) {
     if (request.times < 1) throw InputError("--times: at least 1");
     if (!(request.tolerance > 0.0 && request.tolerance < 1.0)) throw InputError("--tolerance: between 0 and 1");
     const RecordedRun recorded(request.run);
+    if (request.ensemble == 1) throw InputError("--ensemble: at least 2 runs have a spread");
     if (request.temperature) require_noise(request, recorded);
     RunDirectory{request.directory}.make_root();  // before the work for what it is to hold
     const AlongRun run(recorded, request.first_mode, request.last_mode);
     progress(fmt::format("the run's shapes lie within {:.2g} nm of the motion that is followed", run.distance()));
     write_growth(request, run, progress);
-    if (request.temperature) write_noise(request, run, progress);
+    if (!request.temperature) return;
+    const std::vector<NoisyShape> shapes = write_noise(request, run, progress);
+    std::filesystem::remove(request.directory / "noise_ensemble.csv");  // of another request
+    if (request.ensemble > 0) write_ensemble(request, run, shapes, progress);
 }
 
 }  // namespace endoflow::boundary_integral

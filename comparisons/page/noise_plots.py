@@ -48,6 +48,10 @@ def histories(noise):
             spread = noise.table[f"{name}_{kind}_nm"]
             axes.fill_between(noise.times, mean - spread, mean + spread, color=colour, alpha=0.3, linewidth=0, label=label)
         axes.plot(noise.times, mean, color=COLOUR)
+        if noise.ensemble is not None:
+            drawn = {"color": INHERITED, "fmt": "none", "capsize": 2, "linewidth": 1}
+            spread = noise.ensemble[f"{name}_rms_nm"]
+            axes.errorbar(noise.ensemble["time_us"], mean, spread, label="of nonlinear runs from random starts", **drawn)
         axes.set(title=title, xlabel="time (µs)")
         mark_times(axes, noise)
     panels[0].set_ylim(bottom=0)

@@ -7,16 +7,22 @@
 
 namespace endoflow::phasefield {
 
-MaterialForce::MaterialForce(const MembraneCurve& membrane, const Loads& loads)
-    : loads_(loads), r_(membrane.r), z_(membrane.z) {
-    area_.assign(r_.size(), 0);
-    for (std::size_t i = 1; i < r_.size(); ++i)
-        area_[i] =
-            area_[i - 1] + std::numbers::pi * (r_[i] + r_[i - 1]) * std::hypot(r_[i] - r_[i - 1], z_[i] - z_[i - 1]);
+std::vector<double> area_from_pole(const MembraneCurve& membrane) {
+    const std::vector<double>&r = membrane.r, &z = membrane.z;
+    std::vector<double> area(r.size(), 0);
+    for (std::size_t i = 1; i < r.size(); ++i)
+        area[i] = area[i - 1] + std::numbers::pi * (r[i] + r[i - 1]) * std::hypot(r[i] - r[i - 1], z[i] - z[i - 1]);
+    return area;
 }
 
-double MaterialForce::at(double r, double z) const {
-    return loads_.material_force(at_closest_point(r_, z_, area_, r, z));
+MaterialForce::MaterialForce(const MembraneCurve& membrane, const Loads& loads)
+    : loads_(loads), r_(membrane.r), z_(membrane.z) {
+    area_ = area_from_pole(membrane);
+}
+
+ForceDensity MaterialForce::at(double r, double z) const {
+    const double a = at_closest_point(r_, z_, area_, r, z);
+    return {loads_.radial_force(a), loads_.material_force(a)};
 }
 
 }  // namespace endoflow::phasefield

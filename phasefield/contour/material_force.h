@@ -7,14 +7,23 @@
 
 namespace endoflow::phasefield {
 
-/// What rides on the material per area, the pole force and the ring's, as data of a step, as the layer's thickness is:
-/// the material's label is the area from the pole along the membrane as it is predicted for the end of the step.
+/// Area between the pole and each point of a membrane [nm²]: the material's label.
+[[nodiscard]] std::vector<double> area_from_pole(const MembraneCurve& membrane);
+
+/// Per area of membrane, pN/nm².
+struct ForceDensity {
+    double r = 0, z = 0;
+};
+
+/// What rides on the material per area, the pole force, the ring's and the collar's, as data of a step, as the layer's
+/// thickness is: the material's label is the area from the pole along the membrane as it is predicted for the end of
+/// the step.
 class MaterialForce {
   public:
     MaterialForce(const MembraneCurve& membrane, const Loads& loads);
 
-    /// At the membrane's point closest to (r, z), along e_z [pN/nm²].
-    [[nodiscard]] double at(double r, double z) const;
+    /// At the membrane's point closest to (r, z).
+    [[nodiscard]] ForceDensity at(double r, double z) const;
 
   private:
     Loads loads_;

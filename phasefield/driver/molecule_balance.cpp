@@ -15,12 +15,13 @@ constexpr std::size_t most_rates = 4;
 
 void MoleculeBalance::start(double mass, double rate) {
     first_mass_ = mass;
-    exchanged_ = 0;
+    exchanged_ = put_right_ = 0;
     times_ = {0};
     rates_ = {rate};
 }
 
-void MoleculeBalance::advance(double time, double rate) {
+void MoleculeBalance::advance(double time, double rate, double put_right) {
+    put_right_ += std::abs(put_right);
     times_.insert(times_.begin(), time);
     rates_.insert(rates_.begin(), rate);
     if (times_.size() > most_rates) {
@@ -36,7 +37,7 @@ void MoleculeBalance::advance(double time, double rate) {
 }
 
 double MoleculeBalance::residual(double mass) const {
-    return std::abs(mass - first_mass_ - exchanged_) / first_mass_;
+    return (std::abs(mass - first_mass_ - exchanged_) + put_right_) / first_mass_;
 }
 
 }  // namespace endoflow::phasefield

@@ -3,12 +3,17 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
+#include <utility>
 
+#include "phasefield/contour/material_force.h"
 #include "phasefield/driver/clearance.h"
 #include "phasefield/driver/history.h"
 #include "phasefield/fem/interruption.h"
 #include "shared/geometry/axisymmetric_spline.h"
+#include "shared/model/loads.h"
 #include "shared/model/maturation.h"
 #include "shared/model/membrane_energy.h"
 #include "shared/output/phase_timer.h"
@@ -20,6 +25,17 @@ namespace {
 
 /// The diffuse engine follows a neck until the membrane comes apart there.
 constexpr double closed_radius = 0;
+
+/// By which a neck may miss the radius at which its collar is placed [nm]: a tenth of what the layer leaves of a neck's
+/// radius.
+constexpr double collar_miss = 0.01;
+
+/// Between which of increasing numbers a value is, and the part of the way.
+std::pair<std::size_t, double> place_on(const std::vector<double>& numbers, double value) {
+    const auto behind = std::upper_bound(numbers.begin() + 1, numbers.end() - 1, value) - numbers.begin();
+    const auto i = static_cast<std::size_t>(behind) - 1;
+    return {i, (value - numbers[i]) / (numbers[i + 1] - numbers[i])};
+}
 
 double start_of(const RunOutput& output) {
     return output.restart_point() ? output.restart_point()->time_us : 0;
@@ -70,6 +86,7 @@ ExitReason TimeLoop::step_to_an_end() {
         step();
         check_clearance();
         write_due_output();
+        place_collar();
         follow();
         if (anywhere(output_.checkpoint_due())) checkpoint();
     }
@@ -82,15 +99,41 @@ std::optional<ExitReason> TimeLoop::reason_to_stop() {
 }
 
 void TimeLoop::step() {
+    double deadline = parameters_.time.end;
     while (true) {
-        const double tau = scheme_->step(time_, parameters_.time.end);
+        const double tau = scheme_->step(time_, deadline);
         if (const auto outcome = attempt(tau)) {
+            if (const auto earlier = collar_due(*outcome, tau)) {
+                deadline = *earlier;
+                continue;
+            }
             keep(*outcome, tau);
             return;
         }
         output_.count_rejected_step();
         scheme_->reject(time_, tau);
     }
+}
+
+std::optional<double> TimeLoop::collar_due(const StepOutcome& outcome, double tau) const {
+    if (!scheme_->collar_waits()) return {};
+    const double before = neck_radius_, after = neck_radius_of(outcome.contour, time_ + tau);
+    if (after >= Loads::collar_radius - collar_miss) return {};
+    const double part = std::isfinite(before) ? (before - Loads::collar_radius) / (before - after) : 0.5;
+    return time_ + part * tau;
+}
+
+void TimeLoop::place_collar() {
+    if (!scheme_->collar_waits() || neck_radius_ > Loads::collar_radius + collar_miss) return;
+    const MembraneCurve& curve = contour_.curve;
+    const auto [i, part] = place_on(chord_length(curve.r, curve.z), observables_.neck->t);
+    const std::vector<double> area = area_from_pole(curve);
+    const double place = area[i] + part * (area[i + 1] - area[i]);
+    scheme_->place_collar(place);
+    last_loss_ = 0;
+    record({"collar", time_, {}});
+    output_.log_info("the collar sits at a material radius of " + std::to_string(std::sqrt(place / std::numbers::pi)) +
+                     " nm");
 }
 
 std::optional<StepOutcome> TimeLoop::attempt(double tau) {
@@ -122,7 +165,7 @@ void TimeLoop::follow() {
 void TimeLoop::record(double tau, const StepDiagnostics& diagnostics) {
     const PhaseTimer timer(output_, "observables");
     observables_ = measure(contour_.curve, model(time_));
-    if (tau > 0) molecules_.advance(time_, diagnostics.exchange_rate);
+    if (tau > 0) molecules_.advance(time_, diagnostics.exchange_rate, diagnostics.molecules_put_right);
     const double molecular = energetically_coupled(parameters_.molecules)
                                  ? diagnostics.exchange_power - diagnostics.molecule_dissipation
                                  : diagnostics.transport_power;
@@ -142,9 +185,7 @@ void TimeLoop::record(double tau, const StepDiagnostics& diagnostics) {
 double TimeLoop::layer_at_neck() const {
     if (!observables_.neck) return 0;
     const std::vector<double>&r = contour_.curve.r, &z = contour_.curve.z;
-    const std::vector<double> along = chord_length(r, z);
-    const auto behind = std::lower_bound(along.begin(), along.end() - 1, observables_.neck->t) - along.begin();
-    const auto i = static_cast<std::size_t>(behind);
+    const std::size_t i = place_on(chord_length(r, z), observables_.neck->t).first;
     return scheme_->thickness_at(r[i], z[i]) / observables_.neck->radius;
 }
 
@@ -154,10 +195,13 @@ void TimeLoop::note_solver() const {
     if (!counts.empty()) output_.note("solver", counts);
 }
 
+double TimeLoop::neck_radius_of(const Contour& contour, double time) const {
+    return contour.components > 1 ? 0 : neck_radius(measure(contour.curve, model(time)).neck);
+}
+
 double TimeLoop::neck_radius_at(double time) const {
     if (time >= time_) return contour_.components > 1 ? 0 : neck_radius(observables_.neck);
-    const Contour contour = scheme_->contour_at(time);
-    return contour.components > 1 ? 0 : neck_radius(measure(contour.curve, model(time)).neck);
+    return neck_radius_of(scheme_->contour_at(time), time);
 }
 
 void TimeLoop::watch_neck(double tau) {

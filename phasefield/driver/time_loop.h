@@ -27,6 +27,10 @@ class TimeLoop {
     void step();
     /// The outcome of a trial step that may be kept; empty when it must be repeated with a smaller one.
     std::optional<StepOutcome> attempt(double tau);
+    /// Where a step must end so that the neck is then as narrow as a waiting collar is wide; empty when it does not get
+    /// beyond.
+    [[nodiscard]] std::optional<double> collar_due(const StepOutcome& outcome, double tau) const;
+    void place_collar();
     void keep(const StepOutcome& outcome, double tau);
     /// The mesh follows the membrane, once the last step's output is written.
     void follow();
@@ -34,8 +38,10 @@ class TimeLoop {
     void note_solver() const;
     void watch_neck(double tau);
     void record(const NeckEvent& event);
-    /// At a time within the last step [nm]; 0 where the membrane has come apart, infinite without a neck.
+    /// At a time within the last step [nm].
     [[nodiscard]] double neck_radius_at(double time) const;
+    /// 0 where the membrane has come apart, infinite without a neck [nm].
+    [[nodiscard]] double neck_radius_of(const Contour& contour, double time) const;
     /// ε over the neck's radius; 0 without a neck.
     [[nodiscard]] double layer_at_neck() const;
     void check_clearance() const;

@@ -54,6 +54,7 @@ class Noise:
 
     table: columns of noise.csv, (n,) each; modes: {m: {"rms_nm", "inherited_nm": (n,)}}, over the membrane.
     budding, its spread, and until when noise is small enough for linear equations: µs or None.
+    ensemble: columns of noise_ensemble.csv, (n,) each; None without `--ensemble`.
     """
 
     temperature: float
@@ -64,6 +65,7 @@ class Noise:
     budding: float | None
     budding_spread: float | None
     linear_until: float | None
+    ensemble: dict[str, Array] | None = None
 
     @property
     def last_index(self) -> int:
@@ -76,8 +78,7 @@ class Noise:
         if not (directory / "noise.json").is_file():
             return None
         record = json.loads((directory / "noise.json").read_text("utf-8"))
-        rows = rows_of(directory / "noise.csv")
-        table = {name: np.array([float(row[name] or "nan") for row in rows]) for name in rows[0]}
+        table, members = _columns(directory / "noise.csv"), directory / "noise_ensemble.csv"
         modes: dict[int, dict[str, list[float]]] = {}
         for row in rows_of(directory / "noise_modes.csv"):
             entry = modes.setdefault(int(row["mode"]), {})
@@ -94,6 +95,7 @@ class Noise:
             record["budding_us"],
             record["budding_spread_us"],
             record["linear_until_us"],
+            _columns(members) if members.is_file() else None,
         )
 
 
@@ -106,6 +108,11 @@ def rows_of(path: Path) -> list[dict[str, str]]:
     """The rows of a CSV file (path) with a header."""
     with path.open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
+
+
+def _columns(path: Path) -> dict[str, Array]:
+    rows = rows_of(path)
+    return {name: np.array([float(row[name] or "nan") for row in rows]) for name in rows[0]}
 
 
 def _meridian(group: h5py.Group) -> NoisyMeridian:

@@ -85,19 +85,31 @@ void check_loads(const Parameters& p, const Require& require) {
     const bool ringed = ring[0] != 0 || ring[1] != 0;
     require(!ringed || loads.coat_force != 0,
             fmt::format("membrane.coat_force_ring = [{:g}, {:g}] needs membrane.coat_force", ring[0], ring[1]));
+    require(loads.collar_place == 0 || loads.collar_force != 0,
+            fmt::format("membrane.collar_position = {:g} needs membrane.collar_force", p.membrane.collar_position));
     if (loads.none()) return;
+    const double reach = 3 * loads.collar_spread(), all = std::numbers::pi * p.domain.radius * p.domain.radius;
+    require(loads.collar_place == 0 || (loads.collar_place >= reach && loads.collar_place + reach <= all),
+            fmt::format("membrane.collar_position = {:g} nm must be between {:.4g} and {:.4g} nm: a collar of "
+                        "membrane.collar_width = {:g} nm lies on the membrane with three standard deviations, "
+                        "2π · 10 nm times the width in area",
+                        p.membrane.collar_position, std::sqrt(reach / std::numbers::pi),
+                        std::sqrt(std::max(0.0, all - reach) / std::numbers::pi), p.membrane.collar_width));
     require(!ringed || (ring[1] - ring[0] >= narrowest_ring && ring[1] <= p.domain.radius),
             fmt::format("membrane.coat_force_ring = [{:g}, {:g}] nm must be [a1, a2] with a2 at least {:g} nm larger "
                         "than a1 and at most domain.radius = {:g} nm",
                         ring[0], ring[1], narrowest_ring, p.domain.radius));
     require(p.domain.kind == DomainKind::box,
-            "membrane.rim_tension, membrane.pole_force, membrane.coat_force and fluid.pressure_difference need "
+            "membrane.rim_tension, membrane.pole_force, membrane.coat_force, membrane.collar_force and "
+            "fluid.pressure_difference need "
             "domain.kind = \"box\"");
     require(p.membrane.inextensible,
-            "membrane.rim_tension, membrane.pole_force, membrane.coat_force and fluid.pressure_difference need "
+            "membrane.rim_tension, membrane.pole_force, membrane.coat_force, membrane.collar_force and "
+            "fluid.pressure_difference need "
             "membrane.inextensible = true");
     require(p.fluid.dynamics == Dynamics::flow,
-            "membrane.rim_tension, membrane.pole_force, membrane.coat_force and fluid.pressure_difference need "
+            "membrane.rim_tension, membrane.pole_force, membrane.coat_force, membrane.collar_force and "
+            "fluid.pressure_difference need "
             "fluid.dynamics = \"flow\"");
     require(
         loads.pole_force == 0 || 3 * loads.force_width <= p.domain.radius,

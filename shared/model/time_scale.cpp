@@ -37,6 +37,7 @@ double length_of_structure(const Parameters& p) {
     no_longer_than(stiffness / 2, loads.rim_tension, 1.0 / 2);
     no_longer_than(2 * std::numbers::pi * stiffness, loads.pole_force, 1);
     no_longer_than(2 * std::numbers::pi * stiffness, loads.coat_force, 1);
+    no_longer_than(2 * std::numbers::pi * stiffness, loads.collar_force, 1);
     no_longer_than(stiffness, loads.pressure, 1.0 / 3);
     if (energetically_coupled(p.molecules)) length = std::min(length, p.molecules.patch_radius / 2);
     return length;

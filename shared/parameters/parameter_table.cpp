@@ -86,6 +86,12 @@ std::vector<ParameterRow> membrane_rows() {
             "force on the coat, in proportion to c, as of actin bound to it; > 0 pulls it into the cell"),
         row("membrane", "coat_force_ring", &P::membrane, &S::coat_force_ring, "nm", at_least(0, 1e5), "[a1, a2]",
             "material radii of the ring around the coat that bears -F_a; [0, 0] = the rim bears it"),
+        row("membrane", "collar_force", &P::membrane, &S::collar_force, "pN", {-1e4, 1e4}, "F_d",
+            "radial force of a collar around the neck, as of dynamin; > 0 narrows it"),
+        row("membrane", "collar_width", &P::membrane, &S::collar_width, "nm", {0.1, 1e3}, "w_d",
+            "standard deviation of the collar's force along a neck of 10 nm"),
+        row("membrane", "collar_position", &P::membrane, &S::collar_position, "nm", at_least(0, 1e5), "a_d",
+            "material radius of the collar; 0 = where the neck is when it is first narrower than 10 nm"),
         row("membrane", "gaussian_stiffness", &P::membrane, &S::gaussian_stiffness, "pN nm", {-1e5, 1e5}, "κ_G",
             "energy per Gaussian curvature; only statics --hold names it: scission of a neck costs 4π κ_G more"),
     };

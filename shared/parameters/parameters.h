@@ -61,6 +61,9 @@ struct MembraneParameters {
     double pole_force_width = 5;
     double coat_force = 0;
     std::array<double, 2> coat_force_ring{};
+    double collar_force = 0;
+    double collar_width = 5;
+    double collar_position = 0;
     double gaussian_stiffness = 0;
 };
 

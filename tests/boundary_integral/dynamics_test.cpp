@@ -26,6 +26,8 @@ Parameters with_loads(Parameters parameters) {
     parameters.membrane.pole_force = 20;
     parameters.membrane.coat_force = 30;
     parameters.membrane.coat_force_ring = {42, 70};
+    parameters.membrane.collar_force = 15;
+    parameters.membrane.collar_position = 50;
     return parameters;
 }
 
@@ -198,15 +200,17 @@ TEST_CASE("a force on a coat that is all in the spot is the pole force", "[dynam
     CHECK((found - expected).norm() < 1e-6 * expected.norm());  // the quadrature of the density
 }
 
-TEST_CASE("vertical loads vary with the membrane and its molecules", "[dynamics][loads]") {
+TEST_CASE("carried loads vary with the membrane and its molecules", "[dynamics][loads]") {
     Parameters parameters = small_case();
     parameters.membrane.pole_force = 20;
     parameters.membrane.coat_force = 30;
     parameters.membrane.coat_force_ring = {42, 70};
+    parameters.membrane.collar_force = 15;
+    parameters.membrane.collar_position = 50;
     const Loads loads = loads_of(parameters);
     const MembraneSpace space(24, 8);
     const MembraneState state = bulge(space, 25);
-    const VerticalLoadDerivatives exact = vertical_load_derivatives(space, sample(space, state), loads);
+    const CarriedLoadDerivatives exact = carried_load_derivatives(space, sample(space, state), loads);
     Eigen::VectorXd direction(space.curve_count());
     for (Index i = 0; i < direction.size(); ++i) direction[i] = std::sin(3.0 * static_cast<double>(i) + 1.0);
     const auto displaced = [&](double amount) {

@@ -29,17 +29,19 @@ Parameters unloaded(int elements) {
 std::vector<LoadCase> single_loads(int elements, double rim_tension, double pressure, double force) {
     LoadCase tension{"rim tension", unloaded(elements)}, push{"pressure", unloaded(elements)},
         pull{"pole force", unloaded(elements)}, coat{"force on the coat", unloaded(elements)},
-        ring{"force on the coat, held by a ring", unloaded(elements)};
+        ring{"force on the coat, held by a ring", unloaded(elements)}, collar{"collar", unloaded(elements)};
     tension.parameters.membrane.rim_tension = rim_tension;
     push.parameters.fluid.pressure_difference = pressure;
     pull.parameters.membrane.pole_force = force;
     coat.parameters.membrane.coat_force = ring.parameters.membrane.coat_force = force;
     ring.parameters.membrane.coat_force_ring = {40, 70};
-    return {tension, push, pull, coat, ring};
+    collar.parameters.membrane.collar_force = force;
+    collar.parameters.membrane.collar_position = 45;
+    return {tension, push, pull, coat, ring, collar};
 }
 
-// −σ A + p V + F z̄ + F_a (z̄_c − z̄_ring) of a curve, pN nm; heights by the trapezoidal rule over the material's area
-// from the pole.
+// −σ A + p V + F z̄ + F_a (z̄_c − z̄_ring) − F_d r̄ of a curve, pN nm; heights and radii by the trapezoidal rule over the
+// material's area from the pole.
 double potential_of_loads(const Parameters& parameters, const MembraneSpace& space, const MembraneState& state) {
     const Loads loads = loads_of(parameters);
     const ShapeMeasures shape = measure_shape(space, state, parameters.domain);
@@ -50,7 +52,7 @@ double potential_of_loads(const Parameters& parameters, const MembraneSpace& spa
         const CurvePoint p = curve_point(space.radial().basis(xi), space.axial().basis(xi), state);
         const double slope = 2 * pi * p.r * p.g;
         if (i > 0) area += (slope + slope_before) / (2 * steps);
-        const double pull = p.z * loads.material_force(area) * slope;
+        const double pull = (p.z * loads.material_force(area) + p.r * loads.radial_force(area)) * slope;
         const double c = space.axial().basis(xi).evaluate(state.c) * slope, c_lift = p.z * c;
         if (i > 0) {
             work += (pull + pull_before) / (2 * steps);

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "boundary_integral/modes/noise_ensemble.h"
 #include "boundary_integral/modes/noise_growth.h"
 #include "boundary_integral/modes/perturbation_growth.h"
 #include "boundary_integral/modes/run_modes.h"
@@ -142,6 +143,29 @@ TEST_CASE("thermal noise about a run: from equilibrium on, carried by the propag
         CHECK((root * (covariance.inherited_root - expected)).norm() < 1e-2 * (root * expected).norm());
         CHECK(noise.rms(mode).total > noise.rms(mode).inherited);
     }
+
+    // So small an amplitude moves linearly: with the same normal numbers both ways give the same heights.
+    constexpr double cold = 0.1;
+    NoiseGrowth linear(run, cold, 1e-3);
+    linear.advance(0.02);
+    NoiseEnsemble ensemble(run, cold, 7);
+    constexpr std::size_t members = 4;
+    ensemble.add(members, {0.0, 0.02});
+    const Eigen::MatrixXd& root = linear.values()[0].inherited_root;
+    const NoisyQuantity height = pole_height(run.surroundings(), linear.moment().membrane->base());
+    const Eigen::RowVectorXd row = height.row * root.topRows(height.row.size());
+    std::mt19937_64 random(7);
+    std::normal_distribution<double> normal;
+    Eigen::VectorXd heights(members);
+    for (double& value : heights) {
+        Eigen::VectorXd numbers(row.size());
+        for (double& number : numbers) number = normal(random);
+        value = row.dot(numbers);
+    }
+    const double expected = std::sqrt((heights.array() - heights.mean()).square().sum() / (members - 1));
+    CHECK(ensemble.height(1).deviation == Approx(expected).epsilon(0.02));  // steps of 1e-3 nm, and of the propagator
+    CHECK(ensemble.height(1).mean - linear.shape().height == Approx(heights.mean()).margin(0.02 * expected));
+    CHECK_FALSE(std::isfinite(ensemble.neck(0).mean));
 }
 
 TEST_CASE("what the noise of a run's directory writes, and what it refuses", "[modes]") {
@@ -154,7 +178,7 @@ TEST_CASE("what the noise of a run's directory writes, and what it refuses", "[m
     }
     const fs::path result = scratch.path / "modes";
     const auto written = [&](int last, double temperature) {
-        write_modes({scratch.path, result, 1, last, 2, 1e-2, temperature}, [](const std::string&) {});
+        write_modes({scratch.path, result, 1, last, 2, 1e-2, temperature, 2}, [](const std::string&) {});
     };
     CHECK_THROWS_AS(written(1, 310), InputError);
     CHECK_THROWS_AS(written(2, -3), InputError);
@@ -165,6 +189,11 @@ TEST_CASE("what the noise of a run's directory writes, and what it refuses", "[m
     std::getline(table, first);
     CHECK(std::count(header.begin(), header.end(), ',') == std::count(first.begin(), first.end(), ','));
     CHECK(first.substr(first.size() - 9) == ",,,,,,,,,");  // no neck
+    std::ifstream ensemble(result / "noise_ensemble.csv");
+    std::getline(ensemble, header);
+    std::getline(ensemble, first);
+    CHECK(first.substr(0, 4) == "0,2,");
+    CHECK(std::count(header.begin(), header.end(), ',') == std::count(first.begin(), first.end(), ','));
     const Hdf5File shapes(result / "noise.h5", Hdf5File::Mode::read);
     CHECK(shapes.read_array("/times/000001/rms_0").size() == 321);
     CHECK(shapes.read_array("/times/000001/rms_0").back() == 0.0);  // at the rim

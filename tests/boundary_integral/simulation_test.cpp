@@ -193,6 +193,47 @@ TEST_CASE("a restart after budding goes on through it", "[run]") {
     CHECK(record_of(halves.path)["events"]["budding"] == record_of(whole.path)["events"]["budding"]);
 }
 
+TEST_CASE("a collar sits down where the neck is when it is 10 nm wide, and narrows it faster", "[run]") {
+    const ScratchDirectory free("free-neck"), whole("collared"), halves("collared-halves");
+    Parameters parameters = standard(32, 0.9);
+    parameters.output.stop_at_budding = true;
+    run(parameters, free.path);
+    parameters.membrane.collar_force = 20;
+    parameters.boundary_integral.restart_interval = 60;
+    CHECK(run(parameters, whole.path) == ExitReason::budded);
+    const auto events = record_of(whole.path)["events"], without = record_of(free.path)["events"];
+    const double placed = events["collar"]["time_us"];
+    CHECK(events["collar"]["neck_radius_nm"].get<double>() == Approx(10).epsilon(1e-9));
+    // Until then both runs are the same.
+    CHECK_FALSE(without.contains("collar"));
+    const Table rows = read_table(whole.path / "history.csv"), unloaded = read_table(free.path / "history.csv");
+    // From then on the collar's power is that of the loads, and the neck is narrower at every time. The
+    // balance of energies is as without it.
+    double unbalanced = 0;
+    for (const auto& row : unloaded) unbalanced = std::max(unbalanced, row.at("energy_balance_relative"));
+    for (const auto& row : rows) {
+        const double time = row.at("time_us"), power = row.at("load_power_pN_nm_per_us");
+        if (time <= placed * (1 + 1e-9)) {
+            CHECK(power == 0);
+        } else {
+            CHECK(power > 0);
+            CHECK(row.at("energy_balance_relative") <= unbalanced);
+            if (time > placed * 1.001) CHECK(row.at("neck_radius_nm") < at_time(unloaded, "neck_radius_nm", time));
+        }
+    }
+    CHECK(events["budding"]["time_us"].get<double>() < without["budding"]["time_us"].get<double>());
+    // A run that is continued after the collar sits knows where. Its first end cuts no step before.
+    parameters.time.end = placed + 0.05;
+    CHECK(run(parameters, halves.path) == ExitReason::done);
+    CHECK(latest_checkpoint_time(halves.path) == placed);
+    parameters.time.end = 0.9;
+    CHECK(run(parameters, halves.path, StartMode::restart) == ExitReason::budded);
+    const auto a = rows.back(), b = read_table(halves.path / "history.csv").back();
+    for (const auto& [column, value] : a) {
+        if (column != "wall_s") CHECK(b.at(column) == value);
+    }
+}
+
 TEST_CASE("fields are written at their interval, also after a restart", "[run][threads]") {
     const ScratchDirectory whole("whole-fields"), halves("halves-fields");
     Parameters parameters = standard(32, 0.002);

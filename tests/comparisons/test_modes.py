@@ -82,6 +82,9 @@ def write_noise(directory):
                 group[f"rms_{m}"], group[f"inherited_{m}"] = spread + 0 * r, spread / 2 + 0 * r
     (directory / "noise.csv").write_text("\n".join(rows) + "\n")
     (directory / "noise_modes.csv").write_text("\n".join(modes) + "\n")
+    members = ["time_us,members,height_mean_nm,height_rms_nm,height_inherited_nm,neck_mean_nm,neck_rms_nm,neck_inherited_nm"]
+    members += [f"{time},200,40,1.1,1," + (",," if number == 0 else "9,2,1") for number, time in enumerate(TIMES)]
+    (directory / "noise_ensemble.csv").write_text("\n".join(members) + "\n")
     record = {"temperature_K": 310, "budding_us": BUDDING, "budding_spread_us": 0.36, "linear_until_us": 0.9}
     (directory / "noise.json").write_text(json.dumps(record))
 
@@ -100,6 +103,8 @@ class NoiseDirectory(unittest.TestCase):
         self.assertTrue(np.isnan(noise.table["neck_rms_nm"][0]))
         np.testing.assert_allclose(noise.table["neck_rms_nm"][1:], 1 + np.array(TIMES[1:]))
         np.testing.assert_allclose(noise.modes[3]["inherited_nm"], (1 + np.array(TIMES)) / 2)
+        np.testing.assert_allclose(noise.ensemble["height_rms_nm"], 1.1)
+        self.assertTrue(np.isnan(noise.ensemble["neck_rms_nm"][0]))
         # Four modes of the same variance.
         np.testing.assert_allclose(noise.meridians[1].total, 2 * (1 + TIMES[1]))
 

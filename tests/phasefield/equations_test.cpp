@@ -105,7 +105,7 @@ PointPast some_past(const Parameters& p) {
     past.slope_z = 0.05;
     past.arc = 1.2;
     past.metric = 1.3;
-    past.material_force = p.membrane.pole_force;
+    past.material_force = {-0.4 * p.membrane.pole_force, p.membrane.pole_force};
     return past;
 }
 

@@ -90,6 +90,13 @@ TEST_CASE("every load does its virtual work", "[loads]") {
     const double over_ring = 1 - 0.5 * (0.36 + 0.81);
     CHECK(power(coat, inwards, bulge) == Approx(60 * (over_coat - over_ring)).epsilon(2e-3));
     CHECK(std::abs(power(coat, inwards, [](double) { return 3.0; })) < 60e-3);  // no net force
+
+    // 2 F_d r̄/R, r̄ the mean of √(A₀/π) over the Gaussian in A₀: a (1 − ⅛ (s/πa²)²) to 1e-5.
+    Parameters collar = none;
+    collar.membrane.collar_force = 20;
+    collar.membrane.collar_position = 0.6 * R;
+    const double a = 0.6 * R, spread = loads_of(collar).collar_spread() / (pi * a * a);
+    CHECK(power(collar, inwards, bulge) == Approx(40 * a / R * (1 - spread * spread / 8)).epsilon(1e-3));
 }
 
 /// Checks (21) with the powers of loads and maturation over a short run, by the trapezoidal rule as without them;
@@ -119,6 +126,8 @@ TEST_CASE("a bud under loads obeys the energy law, and the rim has its tension",
     p.membrane.pole_force = 20;
     p.membrane.coat_force = 20;
     p.membrane.coat_force_ring = {0.6 * p.domain.radius, 0.95 * p.domain.radius};
+    p.membrane.collar_force = 10;
+    p.membrane.collar_position = 0.6 * p.domain.radius;
     const StepOutcome last = with_energy_law(p);
     CHECK(last.contour.curve.lambda.back() == Approx(0.5).epsilon(0.1));
     CHECK(last.diagnostics.load_power > 0);

@@ -46,6 +46,40 @@ TEST_CASE("the ring bears all of the force, between its radii") {
     CHECK(loads.material_force_within(outer) == Approx(-30).epsilon(1e-14));
 }
 
+TEST_CASE("a collar that has a place presses with all of its force around it") {
+    Parameters p;
+    p.membrane.collar_force = 20;
+    CHECK(loads_of(p).collar_waits());
+    CHECK_FALSE(loads_of(p).radial());
+    CHECK(loads_of(p).radial_force(1e3) == 0);
+    p.membrane.collar_position = 45;
+    const Loads loads = loads_of(p);
+    CHECK_FALSE(loads.collar_waits());
+    CHECK(loads.on_material());
+    CHECK_FALSE(loads.vertical());
+    // A width of 5 nm along a neck of 10 nm; the trapezoidal rule is exact to round-off for what has decayed.
+    const double middle = std::numbers::pi * 45 * 45, spread = 2 * std::numbers::pi * 10 * 5;
+    double force = 0, square = 0;
+    for (int i = -800; i <= 800; ++i) {
+        const double x = 0.01 * i * spread, share = loads.radial_force(middle + x) * 0.01 * spread;
+        force += share;
+        square += share * x * x;
+    }
+    CHECK(force == Approx(-20).epsilon(1e-12));
+    CHECK(square == Approx(-20 * spread * spread).epsilon(1e-12));
+    // Central differences err by step²/6 of what changes over the spread: 2e-6 of it.
+    constexpr double step = 1;
+    for (const double part : {-1.5, -0.4, 0.7, 2.0}) {
+        const double a = middle + part * spread, typical = loads.collar_share(middle) / spread;
+        const auto at = loads.collar_share(Jet<1>::variable(a, 0));
+        const auto before = loads.collar_share(Jet<1>::variable(a - step, 0)),
+                   after = loads.collar_share(Jet<1>::variable(a + step, 0));
+        CHECK(at.partial[0] == Approx((after.value - before.value) / (2 * step)).margin(1e-5 * typical));
+        CHECK(at.second[0][0] ==
+              Approx((after.partial[0] - before.partial[0]) / (2 * step)).margin(1e-5 * typical / spread));
+    }
+}
+
 TEST_CASE("without a ring nothing rides on the material") {
     const Loads loads = ringed(0, 0);
     CHECK_FALSE(loads.none());

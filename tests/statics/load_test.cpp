@@ -120,6 +120,19 @@ TEST_CASE("dG/dF_a = −(z̄_c − z̄_ring)", "[statics][loads]") {
     CHECK(slope_of_potential(state, "membrane.rim_tension", 1e-3) == Approx(here.area).epsilon(1e-8));
 }
 
+TEST_CASE("dG/dF_d = r̄", "[statics][loads]") {
+    Parameters parameters;
+    parameters.molecules.patch_radius = 22;
+    parameters.molecules.transport = Transport::advection;
+    parameters.membrane.collar_force = 5;
+    parameters.membrane.collar_position = 35;
+    const auto state = find_stationary_state(parameters);
+    const ShapeIntegrals here = shape_integrals(parameters, state.point.solution, default_rule);
+    REQUIRE(here.collar_radius < 25);  // on the neck of a dome
+    CHECK(slope_of_potential(state, "membrane.collar_force", 0.05) == Approx(here.collar_radius).epsilon(1e-8));
+    CHECK(slope_of_potential(state, "membrane.rim_tension", 1e-3) == Approx(here.area).epsilon(1e-8));
+}
+
 TEST_CASE("a force on molecules in equilibrium pulls as on those that stay where both are the same",
           "[statics][loads]") {
     // To first order in the force the shape of a flat membrane does not move the molecules: so weak a curvature and

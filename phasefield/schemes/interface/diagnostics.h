@@ -37,6 +37,7 @@ struct StepDiagnostics {
     double exchange_rate = 0;         // ∫ j dA [nm²/µs]
     double exchange_power = 0;        // E + E_c that molecules bring when they come [pN nm/µs]
     double maturation_power = 0;      // ∂E/∂χ dχ/dt [pN nm/µs]
+    double molecules_put_right = 0;   // ∫ c dA that was added so that the step's balance of molecules is exact [nm²]
     BulkMeasures bulk{};
 };
 

@@ -48,6 +48,11 @@ class Scheme {
     /// Forgets the last attempt. Throws SolverError("step-size-underflow", …) when smaller steps make no sense.
     virtual void reject(double time, double tau) = 0;
 
+    /// Whether a collar of the case waits for a neck; and from the kept time on it sits on the material with this area
+    /// between it and the pole [nm²]. The motion has a kink there.
+    [[nodiscard]] virtual bool collar_waits() const { return false; }
+    virtual void place_collar(double /*area*/) {}
+
     /// Adapts the mesh to the membrane if it has moved far enough.
     virtual void follow(const MembraneCurve& curve) = 0;
     [[nodiscard]] virtual LayerIntegrals integrate() const = 0;

@@ -93,6 +93,12 @@ BulkMeasures BulkTransport::take(const BulkStep& step, const std::vector<double>
             trial_corrected_};
 }
 
+void BulkTransport::start_anew() {
+    solutions_.resize(1);
+    missing_.resize(1);
+    made_up_.resize(1);
+}
+
 void BulkTransport::keep(std::size_t most) {
     solutions_.insert(solutions_.begin(), trial_);
     missing_.insert(missing_.begin(), trial_missing_);

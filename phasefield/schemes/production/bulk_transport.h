@@ -36,6 +36,8 @@ class BulkTransport {
     BulkMeasures take(const BulkStep& step, const std::vector<double>& masses, double mass, double tau);
     /// Makes what was taken the state; `most` solutions are kept.
     void keep(std::size_t most);
+    /// Forgets what was before the newest time.
+    void start_anew();
     /// What the membrane has been left to see.
     [[nodiscard]] std::shared_ptr<const BulkSupply> supply() const;
 

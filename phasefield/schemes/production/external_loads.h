@@ -32,7 +32,7 @@ class RimTension {
     ComponentField psi_, u_r_;
 };
 
-/// Power of rim tension, pressure and pole force at the end of a step [pN nm/µs]; collective.
+/// Power of all loads at the end of a step [pN nm/µs]; collective.
 double load_power(const StepProblem& problem, const Vector& solution);
 
 }  // namespace endoflow::phasefield::production

@@ -7,7 +7,7 @@ namespace endoflow::phasefield::production {
 
 /// The force on the fluid per volume [pN/nm³], the right side of (32) without λ:
 ///
-///   δ_Γ ((G − Δp) ∇ψ + e_c ∇ₜc + (f + F_a c/∫c dA) e_z) + δ_E e_c ∇ₙc + E_ε ∇ₙε + D δ ∂_N G ∂_N∇ψ.
+///   δ_Γ ((G − Δp) ∇ψ + e_c ∇ₜc + f + F_a c/∫c dA e_z) + δ_E e_c ∇ₙc + E_ε ∇ₙε + D δ ∂_N G ∂_N∇ψ.
 ///
 /// Along the sheets e_c ∇c has the weight of the tension that balances it; where c's level lines are off the normal,
 /// the part across is that of the energy, or the two would not cancel in the net force, 1 pN of which is a per cent of
@@ -28,8 +28,9 @@ PlaneVector<Number> membrane_force(const Fields<Number>& x, const PointGeometry<
                                                 (p.squared_gradient + gradient_floor * gradient_floor);
     const Number uneven =
         evenness(change, p.epsilon) * diffusivity<diffusion_of(normal_force)>(p, past, step) * dot(p.own_normal, G);
-    const Number pulled = (past.material_force + step.coat_force * c.value) * p.delta_Gamma;
-    return {(normal + across) * psi.r + molecules * c.r + uneven * change.r,
+    const Number squeezed = past.material_force.r * p.delta_Gamma,
+                 pulled = (past.material_force.z + step.coat_force * c.value) * p.delta_Gamma;
+    return {(normal + across) * psi.r + molecules * c.r + uneven * change.r + squeezed,
             (normal + across) * psi.z + molecules * c.z + uneven * change.z + pulled};
 }
 

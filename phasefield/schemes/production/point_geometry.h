@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "phasefield/contour/layer_thickness.h"
+#include "phasefield/contour/material_force.h"
 #include "phasefield/layer/constants.h"
 #include "phasefield/layer/profile.h"
 #include "phasefield/layer/weights.h"
@@ -47,7 +48,7 @@ struct PointPast {
     PointThickness thickness;         // ε, the same for all times
     double arc = 1, metric = 1;       // sheet_arc, sheet_metric
     double even = 1;                  // evenness
-    double material_force = 0;        // along z, per area of membrane [pN/nm²]
+    ForceDensity material_force;      // what rides on the material
     double bulk = 1;                  // c_b/c_∞ of the fluid that molecules come from
 };
 

@@ -8,7 +8,6 @@
 #include "phasefield/layer/boundary_flux.h"
 #include "phasefield/layer/constants.h"
 #include "phasefield/layer/initial_membrane.h"
-#include "phasefield/schemes/production/diagnostics.h"
 #include "phasefield/schemes/production/external_loads.h"
 #include "phasefield/schemes/production/refinement.h"
 #include "shared/model/time_scale.h"
@@ -83,6 +82,17 @@ std::vector<Vector> ProductionScheme::with_their_molecules(const StepNumbers& st
     for (std::size_t j = 0; j < now.size(); ++j)
         if (now[j] > 0) scale_component(space_, molecule_density, state_.masses[j] / now[j], out[j]);
     return out;
+}
+
+void ProductionScheme::balance_molecules(const BdfCoefficients& bdf, SolutionMeasures& measures,
+                                         Vector& solution) const {
+    double& molecules = measures.integrals.molecules;
+    if (molecules <= 0) return;
+    const double before = std::inner_product(bdf.past.begin(), bdf.past.end(), state_.masses.begin(), 0.0);
+    const double balanced = (measures.diagnostics.exchange_rate - before) / bdf.rate;
+    measures.diagnostics.molecules_put_right = balanced - molecules;
+    scale_component(space_, molecule_density, balanced / molecules, solution);
+    molecules = balanced;
 }
 
 StepOutcome ProductionScheme::present() {
@@ -162,6 +172,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     rate.add(bdf.rate, trial.solution);
     rate.update_ghost_values();
     auto measures = measure_solution(space_, energy, numbers, trial.before.front(), predicted, rate, trial.solution);
+    balance_molecules(bdf, measures, trial.solution);
     auto& diagnostics = measures.diagnostics;
     diagnostics.net_vertical_force = net_vertical_force(problem, trial.solution);
     diagnostics.extracellular_inflow =
@@ -224,6 +235,16 @@ void ProductionScheme::reject(double time, double tau) {
     tried.tau = tau;
     trial_.reset();
     state_.next_step = step_instead(tried, time, parameters_);
+}
+
+void ProductionScheme::place_collar(double area) {
+    case_.loads.collar_place = area;
+    state_.solutions.resize(1);
+    state_.times.resize(1);
+    state_.masses.resize(1);
+    if (bulk_) bulk_->start_anew();
+    state_.next_step = std::min(state_.next_step, first_step(parameters_));
+    state_.steps = 0;
 }
 
 std::vector<NamedNumber> ProductionScheme::constants() const {

@@ -6,6 +6,7 @@
 #include "phasefield/layer/constants.h"
 #include "phasefield/schemes/interface/scheme.h"
 #include "phasefield/schemes/production/bulk_transport.h"
+#include "phasefield/schemes/production/diagnostics.h"
 #include "phasefield/schemes/production/scheme_state.h"
 #include "phasefield/schemes/production/step_solver.h"
 
@@ -27,6 +28,8 @@ class ProductionScheme : public Scheme {
     StepOutcome attempt(double time, double tau) override;
     void keep(double time, double tau, const StepOutcome& outcome) override;
     void reject(double time, double tau) override;
+    [[nodiscard]] bool collar_waits() const override { return case_.loads.collar_waits(); }
+    void place_collar(double area) override;
     void follow(const MembraneCurve& curve) override;
     [[nodiscard]] LayerIntegrals integrate() const override { return state_.integrals; }
     [[nodiscard]] Contour contour_at(double time) const override {
@@ -50,6 +53,9 @@ class ProductionScheme : public Scheme {
     /// The state's solutions, each with its own ∫ c dA where the layer has a step's thickness: with one factor for all,
     /// what is left of the others' errors would be a source.
     [[nodiscard]] std::vector<Vector> with_their_molecules(const StepNumbers& step) const;
+    /// What Newton's method has left of the molecules' balance a₀ ∫ c dA + Σ_j b_j ∫ c(t_j) dA = ∫ j dA, which the rows
+    /// of c have exactly, goes into c as a whole.
+    void balance_molecules(const BdfCoefficients& bdf, SolutionMeasures& measures, Vector& solution) const;
     /// The polynomial in time through the newest `count` of the state's times, of these vectors.
     [[nodiscard]] Vector polynomial(const std::vector<Vector>& solutions, double time, std::size_t count) const;
     [[nodiscard]] Contour contour(const Vector& solution) const;

@@ -9,6 +9,7 @@ void ProductionScheme::save(const std::filesystem::path& directory, Checkpoint& 
     ThicknessCurve curve = state_.thickness ? state_.thickness->curve() : ThicknessCurve();
     const CheckpointWriter writer(checkpoint);
     state_.serialize(writer, curve);
+    writer("collar_place", case_.loads.collar_place);
     solver_.serialize(writer);
     make_empty_directory(directory, mesh_->get_communicator());
     const auto transfer = MeshTransfer::for_saving(space_, state_.solutions);
@@ -21,6 +22,7 @@ StepOutcome ProductionScheme::load(const std::filesystem::path& directory, const
     ThicknessCurve curve;
     const CheckpointReader reader(checkpoint);
     state_.serialize(reader, curve);
+    reader("collar_place", case_.loads.collar_place);
     solver_.serialize(reader);
     load_mesh(directory, *mesh_);
     renew();

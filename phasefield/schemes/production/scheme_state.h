@@ -21,7 +21,7 @@ struct SchemeState {
     double next_step = 0;                            // [µs]
     double speed = 0;                                // of the membrane in the last step [nm/µs]
     double moved = 0;        // of the layer, since the mesh was made: in units of ε, times phase_field.epsilon [nm]
-    unsigned int steps = 0;  // since the start
+    unsigned int steps = 0;  // since the start or the last kink of the motion
 
     // Of the newest solution, measured again when it is loaded.
     LayerIntegrals integrals{};
