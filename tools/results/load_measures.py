@@ -31,6 +31,22 @@ def passing(rows):
     return [{"between": "fastest and slowest", "power": float(np.log(fast["beyond_nm"] / slow["beyond_nm"]) / np.log(ratio))}]
 
 
+def engines_beside(sharp, diffuse, times):
+    """Differences of the diffuse engine at times (µs), relative; a neck's is nan where there is none."""
+    columns = {
+        "height": "bud_height_nm",
+        "neck": "neck_radius_nm",
+        "volume": "volume_extracellular_nm3",
+        "energy": "bending_energy_pN_nm",
+        "load power": "load_power_pN_nm_per_us",
+    }
+    rows = []
+    for time in times:
+        row = {"time_us": f"{time:g}", "height_sharp_nm": at(sharp, "bud_height_nm", time)}
+        rows.append(row | {name: at(diffuse, column, time) / at(sharp, column, time) - 1 for name, column in columns.items()})
+    return rows
+
+
 def beside_rest(run, rest):
     """A growing coat when it has the molecules of a stationary shape, beside this shape."""
     time = float(np.interp(rest.history["molecule_mass_nm2"][-1], run.history["molecule_mass_nm2"], run.history["time_us"]))

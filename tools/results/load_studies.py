@@ -96,6 +96,32 @@ def line_tension():
 FOLLOWED = {"half": "0.5", "one": "1", "two": "2"}
 
 
+def pit():
+    """A coat that grows and matures under tension, pulled by actin on a ring, with a collar, in both engines."""
+    runs = {engine: f"endoflow run {engine} cases/pit.toml" for engine in ("boundary-integral", "phase-field")}
+    columns = (
+        Column("time_us", "t, µs"),
+        Column("height_sharp_nm", "height, sharp, nm", ".3f"),
+        *(Column(name, name, "+.2%") for name in ("height", "neck", "volume", "energy", "load power")),
+    )
+    events = (
+        Column("event", "event"),
+        Column("sharp_us", "sharp, µs", ".5f"),
+        Column("diffuse_us", "diffuse, µs", ".5f"),
+        Column("later", "later by", "+.2%"),
+    )
+
+    def rows(made):
+        return load_measures.engines_beside(*(made.run(engine) for engine in runs), (0.01, 0.1, 0.3, 0.5, 0.7, 0.9))
+
+    def of_events(made):
+        sharp, diffuse = (made.run(engine) for engine in runs)
+        found = [(name, sharp.event_time(name), diffuse.event_time(name)) for name in ("collar", "budding")]
+        return [{"event": name, "sharp_us": one, "diffuse_us": other, "later": other / one - 1} for name, one, other in found]
+
+    yield Study("pit", 10, runs, (Table("pit", columns, rows), Table("pit-events", events, of_events)))
+
+
 def phase_diagram():
     """What becomes of ready-made coats under tension, over the coat's radius and the tension."""
     case = "cases/phase-diagram.toml"

@@ -293,6 +293,16 @@ def noise(directory, times):
     return rows
 
 
+def ensemble(directory):
+    """Rows of the nonlinear runs from random starts beside the linear noise that they inherit."""
+    table = endoflow.load_modes(directory).noise.ensemble
+    columns = [name for name in table if name not in ("time_us", "members")]
+    return [
+        {"time_us": f"{time:.4g}"} | {name: None if np.isnan(table[name][i]) else float(table[name][i]) for name in columns}
+        for i, time in enumerate(table["time_us"])
+    ]
+
+
 def noise_of_budding(directory):
     """Budding time and its spread, µs."""
     found = endoflow.load_modes(directory).noise

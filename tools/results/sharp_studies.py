@@ -233,6 +233,17 @@ def noise():
         ),
     )
 
+    runs = {"run": f"{SHARP} --until 0.9"}
+    runs["modes"] = "endoflow modes {run} --noise --modes 1:2 --times 11 --ensemble 200 --tables-only"
+    columns = (
+        Column("time_us", "time, µs", ".2f"),
+        Column("height_inherited_nm", "height, ±, linear", ".2f"),
+        Column("height_rms_nm", "of 200 runs", ".2f"),
+        Column("neck_inherited_nm", "neck, ±, linear", ".3f"),
+        Column("neck_rms_nm", "of 200 runs", ".3f"),
+    )
+    yield Study("noise-ensemble", 12, runs, (Table("noise-ensemble", columns, lambda made: measures.ensemble(made.directory("modes"))),))
+
     runs = {}
     for radius in TREMBLING:
         runs[f"run-{radius}"] = f"{SHARP} --set molecules.patch_radius={radius} {TO_BUDDING} --until 1.6"
