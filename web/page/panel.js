@@ -130,7 +130,7 @@ const unread = (name) => name.startsWith("phase_field") || name === "boundary_in
 class Panel {
   constructor(settings, changed) {
     this.settings = settings;
-    this.sliders = SLIDERS.map((row) => new (controlOf(row))(row, settings, () => {
+    this.sliders = SLIDERS.filter(({ key }) => settings.table.has(key)).map((row) => new (controlOf(row))(row, settings, () => {
       this.show();
       changed();
     }));

@@ -89,6 +89,9 @@ const SLIDERS = [
     typical: "at a pit: 10 to 20 pN, over 100 at high tension" },
   { group: "Forces", key: RING, label: "It stands on a ring around the coat", ticked: ringAround, when: (settings) => settings.get(FORCE) !== 0,
     typical: "else the membrane’s rim bears the force" },
+  { group: "Forces", key: "membrane.collar_force", label: "Collar’s force on the neck", unit: "pN", from: -100, to: 100, step: 5, refused: withoutLoads,
+    implies: (value) => (value === 0 ? { "membrane.collar_position": undefined } : {}),
+    typical: "narrows the neck once it is 10 nm wide; < 0 holds it open" },
   { group: "The run", key: "time.end", label: "Ends at", unit: "µs", from: 0.05, to: 100, log: true,
     typical: "the standard coat buds after 0.83 µs" },
 ];
