@@ -201,6 +201,13 @@ class ModesDirectory(unittest.TestCase):
             browser.evaluate("document.querySelectorAll('input[name=mode]')[1].click()")
             self.assertIn("m = 2: grows at −1.52/µs", browser.evaluate(text))
             self.assertNotEqual(browser.evaluate(picture), before)
+            self.assertFalse(browser.evaluate("document.getElementById('noise-kind').checkVisibility()"))
+            pictures = []
+            for kind in ("fastest", "worst", "fastest"):
+                browser.evaluate(f"document.querySelector('input[value={kind}]').click()")
+                pictures.append(browser.evaluate(picture))
+            self.assertNotEqual(pictures[0], pictures[1])
+            self.assertEqual(pictures[0], pictures[2])
             browser.evaluate("document.getElementById('turn').click()")
             still = browser.evaluate(picture)
             moved = f"new Promise(done => {{ const look = () => {picture} !== {still!r} ? done(true) : setTimeout(look, 20); look(); }})"

@@ -3,6 +3,7 @@
 
 import csv
 import json
+import math
 import os
 import pathlib
 import re
@@ -55,6 +56,47 @@ PIXELS = """((id, name) => {
     for (let i = 0; i < data.length; i += 4) count += colour.every((value, k) => data[i + k] === value);
     return count;
 })"""
+
+
+# Whether a person sees an element.
+VISIBLE = "((id) => document.getElementById(id).checkVisibility())"
+
+# What is refused of the ends of all sliders, of all words and boxes; those that know of other settings one after the other, too.
+EVERY_SLIDER = """(async () => {
+    const { panel, settings, engine } = laboratory, begin = settings.values, refused = [];
+    const seen = ({ input, element }) => !input.disabled && !element.hidden;
+    const places = ({ input }) => input.type === "range" ? [() => { input.value = input.min; }, () => { input.value = input.max; }]
+        : input.type === "checkbox" ? [() => { input.checked = !input.checked; }]
+        : [...input.options].map(({ value }) => () => { input.value = value; });
+    const put = (control, place) => {
+        place();
+        control.input.dispatchEvent(new Event(control.input.type === "range" ? "input" : "change"));
+    };
+    await engine.ask("stop");
+    const anew = () => { settings.values = { ...begin }; panel.show(); };
+    const check = async (said) => {
+        const { error } = await engine.ask("check", { text: settings.toToml() });
+        if (error) refused.push(`${said}: ${error}`);
+    };
+    const knows = ({ row }) => row.limits || row.implies || row.when;
+    for (const first of panel.sliders) for (const place of places(first)) {
+        anew();
+        if (!seen(first)) continue;
+        put(first, place);
+        await check(first.row.key);
+        const between = { ...settings.values };
+        for (const second of knows(first) ? panel.sliders.filter(knows) : []) for (const other of places(second)) {
+            settings.values = { ...between };
+            panel.show();
+            if (!seen(second)) continue;
+            put(second, other);
+            await check(`${first.row.key}, ${second.row.key}`);
+        }
+    }
+    anew();
+    clearTimeout(laboratory.soon);
+    return refused;
+})()"""
 
 
 def native_run(settings, scratch):
@@ -115,6 +157,17 @@ class Page(unittest.TestCase):
             input.value = '{value}'; input.dispatchEvent(new Event('change')); }})()"""
         )
 
+    def slide(self, slider, value):
+        """Move a slider of the settings, or choose from a list of them, as a person does."""
+        self.browser.evaluate(
+            f"""(() => {{ const input = document.getElementById('slider-{slider}');
+            input.value = '{value}'; for (const kind of ['input', 'change']) input.dispatchEvent(new Event(kind)); }})()"""
+        )
+
+    def values(self):
+        """All settings that are no defaults."""
+        return self.browser.evaluate("laboratory.settings.values")
+
     def text(self, part):
         """What an element says when everything until now has been drawn."""
         self.browser.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
@@ -133,6 +186,52 @@ class Laboratory(Page):
                 self.wait("laboratory.run.events.budding !== undefined")
                 native = native_budding(settings)
                 self.assertLess(abs(self.browser.evaluate("laboratory.run.events.budding.time_us") / native - 1), SAME)
+
+    def budding_of_what_is_set(self):
+        """Budding time [µs] of the settings that have just been moved."""
+        self.wait("JSON.stringify(laboratory.run.values) === JSON.stringify(laboratory.settings.values)")
+        self.wait("laboratory.run.events.budding !== undefined")
+        return self.browser.evaluate("laboratory.run.events.budding.time_us")
+
+    def test_actin_s_force_is_the_native_engine_s(self):
+        """From the sliders, on its ring and, once that is taken away, on the rim."""
+        self.open(SHORT)
+        self.assertFalse(self.browser.evaluate(f"{VISIBLE}('slider-membrane-coat_force_ring')"))
+        self.open()
+        self.slide("membrane-coat_force", 20)
+        self.assertTrue(self.browser.evaluate(f"{VISIBLE}('slider-membrane-coat_force_ring')"))
+        force, ring = "membrane.coat_force=20", "membrane.coat_force_ring=[42.3, 54.9]"
+        self.assertEqual(self.values(), {"membrane.coat_force": 20, "membrane.coat_force_ring": [42.3, 54.9]})
+        found = [self.budding_of_what_is_set()]
+        self.press("slider-membrane-coat_force_ring")
+        self.assertEqual(self.values(), {"membrane.coat_force": 20})
+        found.append(self.budding_of_what_is_set())
+        for budding, settings in zip(found, ([force, ring], [force])):
+            with self.subTest(settings=settings):
+                self.assertLess(abs(budding / native_budding(settings) - 1), SAME)
+        self.assertGreater(abs(found[0] / found[1] - 1), 1e-3)
+        self.assertTrue(all(abs(budding / native_budding([]) - 1) > 1e-3 for budding in found))
+
+    def test_a_coat_that_matures_is_the_native_engine_s(self):
+        self.open()
+        self.assertFalse(self.browser.evaluate(f"{VISIBLE}('maturity')"))
+        self.slide("molecules-maturation", "cooperative")
+        self.assertEqual(self.values()["molecules.maturation_rate"], 0.5)
+        self.slide("molecules-maturation_rate", 600)
+        self.slide("molecules-maturation_start", 0.1)
+        values = self.values()
+        wanted = {"molecules.maturation": "cooperative", "molecules.maturation_rate": 2.5, "molecules.maturation_start": 0.1}
+        self.assertEqual(values, wanted)
+        native = native_budding([f"{name}={value}" for name, value in values.items()])
+        self.assertLess(abs(self.budding_of_what_is_set() / native - 1), SAME)
+        self.assertTrue(self.browser.evaluate(f"{VISIBLE}('maturity')"))
+        self.wait(f"{PIXELS}('maturity', '--accent') > 50")
+        # χ = tanh(k t + artanh χ₀), as closely as the engine's tolerance has it.
+        for row in self.browser.evaluate("laboratory.run.rows"):
+            self.assertAlmostEqual(row["maturity"], math.tanh(2.5 * row["time"] + math.atanh(0.1)), delta=1e-4)
+        self.slide("molecules-maturation", "none")
+        self.assertEqual(self.values(), {})
+        self.wait(f"!{VISIBLE}('maturity')")
 
     def test_wrong_input_is_refused_as_on_the_command_line(self):
         self.open()
@@ -234,6 +333,33 @@ class TakenAlong(Page):
         self.assertEqual(self.browser.evaluate("laboratory.settings.values"), {"molecules.patch_radius": 30})
         self.assertIn("no.such=1", self.text("error"))
 
+    def test_the_ring_follows_the_coat(self):
+        link = "molecules.patch_radius=60&domain.radius=200&membrane.coat_force=10&membrane.coat_force_ring=80%2C120"
+        self.open(link)
+        self.assertEqual(self.browser.evaluate("location.hash"), f"#{link}")
+        self.assertTrue(self.browser.evaluate("document.getElementById('slider-membrane-coat_force_ring').checked"))
+        self.slide("molecules-patch_radius", 53)
+        self.assertEqual(self.values()["membrane.coat_force_ring"], [74, 116])
+        self.type("all-domain-radius", 109)
+        self.assertEqual(self.values()["membrane.coat_force_ring"], [61, 77])
+        self.slide("membrane-coat_force", 0)
+        self.assertEqual(self.values(), {"molecules.patch_radius": 53, "domain.radius": 109})
+        self.slide("membrane-coat_force", 20)
+        self.assertEqual(self.values()["membrane.coat_force_ring"], [61, 77])
+
+    def test_no_slider_asks_for_what_is_refused(self):
+        """From each case of the list."""
+        self.open()
+        self.wait("laboratory.presetsRead === true")
+        presets = self.browser.evaluate("[...document.getElementById('preset').options].map((o) => o.value).filter(Boolean)")
+        for name in ["", *presets]:
+            with self.subTest(name):
+                if name:
+                    self.type("preset", name)
+                self.wait("laboratory.state !== 'loading' && laboratory.run.rows.length > 1")
+                refused = self.browser.evaluate(EVERY_SLIDER)
+                self.assertEqual(refused, [])
+
     def test_what_it_saves(self):
         settings = ["molecules.patch_radius=31.5", "molecules.transport=fickian", "time.end=0.01", "domain.radius=90"]
         self.open("&".join(settings))
@@ -275,6 +401,14 @@ class TakenAlong(Page):
         self.open()
         row = "{time: 0, neck: null, height: 1e-15, energy: 0}"
         self.browser.evaluate(f"laboratory.charts[1].draw({{rows: [{row}], events: {{}}}}, null)")
+
+    def test_axes_of_a_membrane_that_sinks(self):
+        """Heights have a sign: the whole curve is seen."""
+        self.open(SHORT)
+        self.wait("laboratory.state === 'ended'")
+        rows = "[0, 1, 2].map((i) => ({ time: i, neck: null, height: -20 * i, energy: 0 }))"
+        self.browser.evaluate(f"laboratory.charts[1].draw({{ rows: {rows}, events: {{}} }}, null)")
+        self.assertGreater(self.browser.evaluate(f"{PIXELS}('height', '--accent')"), 150)
 
     def test_no_request_leaves_the_page(self):
         self.open()

@@ -21,6 +21,8 @@ CASES = {
     "tube": "A bare membrane under tension",
     "line-tension": "An edge that costs",
     "growing-coat": "A coat that grows",
+    "maturing-coat": "A coat that matures",
+    "actin": "Actin that pulls at a coat",
     "closed_vesicle": "A vesicle in free fluid",
 }
 

@@ -10,6 +10,7 @@
 #include "boundary_integral/driver/run_loop.h"
 #include "boundary_integral/simulation.h"
 #include "shared/case/case_file.h"
+#include "shared/output/history_columns.h"
 #include "shared/output/provenance.h"
 #include "shared/output/run_memory.h"
 #include "shared/parameters/parameter_rendering.h"
@@ -49,7 +50,9 @@ Parameters parameters_of(const std::string& case_text) {
 class Laboratory {
   public:
     explicit Laboratory(const Parameters& parameters)
-        : memory_(parameters, boundary_integral::identity(parameters)), run_(parameters, memory_) {}
+        : columns_(boundary_integral::identity(parameters).history_columns),
+          memory_(parameters, boundary_integral::identity(parameters)),
+          run_(parameters, memory_) {}
 
     /// What there is before the first step.
     Json opened() {
@@ -80,6 +83,7 @@ class Laboratory {
     [[nodiscard]] const std::vector<float>& shape() const { return shape_; }
 
   private:
+    std::vector<ColumnText> columns_;  // the engine's own, of a row
     RunMemory memory_;
     boundary_integral::Run run_;
     std::optional<ExitReason> reason_;
@@ -100,8 +104,9 @@ class Laboratory {
         for (; rows_told_ < memory_.rows().size(); ++rows_told_) {
             const HistoryRow& row = memory_.rows()[rows_told_];
             const auto& neck = row.membrane.neck;
+            const auto maturity = value_of("maturity", row, columns_);
             rows.push_back({row.time_us, neck ? Json(neck->radius) : Json(), row.membrane.bud_height,
-                            row.membrane.bending_energy});
+                            row.membrane.bending_energy, maturity ? Json(*maturity) : Json()});
         }
         Json warnings = Json::array();
         for (; warnings_told_ < memory_.warnings().size(); ++warnings_told_)

@@ -1,15 +1,16 @@
 "use strict";
-// Neck, height and energy against time, each with the kept curve behind it.
+// Neck, height, energy and a coat's maturity against time, each with the kept curve behind it.
 
-/** Round numbers from 0 to `high` > 0, some `count` of them. */
-function ticks(high, count) {
-  const rough = high / count, power = 10 ** Math.floor(Math.log10(rough));
+/** Round numbers from `low` ≤ 0 to `high` > 0, some `count` of them and 0. */
+function ticks(low, high, count) {
+  const rough = (high - low) / count, power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((x) => x * power).find((x) => x >= rough * 0.999);
-  return Array.from({ length: Math.floor((high / step) * (1 + 1e-9)) + 1 }, (_, i) => Number((i * step).toPrecision(9)));
+  const whole = (value) => Math.floor((value / step) * (1 + 1e-9));
+  return Array.from({ length: whole(high) + whole(-low) + 1 }, (_, i) => Number(((i - whole(-low)) * step).toPrecision(9)));
 }
 
 class Chart {
-  /** `column`: of a row {time, neck, height, energy}. */
+  /** `column`: of a row {time, neck, height, energy, maturity}. */
   constructor(canvas, column, name, unit) {
     Object.assign(this, { canvas, column, name, unit });
   }
@@ -23,24 +24,25 @@ class Chart {
     const own = this.values(rows), old = kept ? this.values(kept.rows) : [];
     const all = own.concat(old), left = 46, bottom = height - 20, top = 8, right = width - 8;
     const end = Math.max(rows.at(-1)?.time ?? 0, kept?.rows.at(-1)?.time ?? 0) || 1;
-    const largest = all.reduce((value, row) => Math.max(value, row[this.column]), 0);
-    const most = largest > 1e-6 ? largest : 1;  // less is round-off of a membrane at rest
-    const x = (t) => left + ((right - left) * t) / end, y = (value) => bottom - ((bottom - top) * value) / (1.06 * most);
+    const beyond = (value) => (value > 1e-6 ? 1.06 * value : 0);  // less is round-off of a membrane at rest
+    const low = -beyond(all.reduce((value, row) => Math.max(value, -row[this.column]), 0));
+    const high = beyond(all.reduce((value, row) => Math.max(value, row[this.column]), 0)) || (low < 0 ? -0.06 * low : 1.06);
+    const x = (t) => left + ((right - left) * t) / end, y = (value) => bottom - ((bottom - top) * (value - low)) / (high - low);
     context.font = "12px system-ui, sans-serif";
     context.lineWidth = 1;
     context.strokeStyle = colours.grid;
     context.fillStyle = colours.muted;
     context.textAlign = "right";
     context.textBaseline = "middle";
-    for (const mark of ticks(1.06 * most, 3)) {
+    for (const mark of ticks(low, high, 3)) {
       context.beginPath();
       context.moveTo(left, y(mark));
       context.lineTo(right, y(mark));
       context.stroke();
-      context.fillText(mark >= 1e4 ? `${short(mark / 1e3)}k` : String(mark), left - 6, y(mark));
+      context.fillText(Math.abs(mark) >= 1e4 ? `${short(mark / 1e3)}k` : String(mark), left - 6, y(mark));
     }
     context.textBaseline = "alphabetic";
-    const marks = ticks(end, Math.max(3, Math.floor(width / 70)));
+    const marks = ticks(0, end, Math.max(3, Math.floor(width / 70)));
     marks.forEach((mark, i) => {
       context.textAlign = i === 0 ? "left" : x(mark) > right - 14 ? "right" : "center";
       context.fillText(i === marks.length - 1 ? `${mark} µs` : String(mark), x(mark), height - 4);

@@ -13,7 +13,7 @@ class Laboratory {
     this.engine.onprogress = (said) => this.progress(said);
     this.stage = new Stage(find("stage"));
     this.charts = [new Chart(find("neck"), "neck", "Neck radius", "nm"), new Chart(find("height"), "height", "Height", "nm"),
-      new Chart(find("energy"), "energy", "Bending energy", "pN nm")];
+      new Chart(find("energy"), "energy", "Bending energy", "pN nm"), new Chart(find("maturity"), "maturity", "Maturity χ", "parts of 1")];
     this.run = this.emptyRun(0);
     this.kept = null;
     this.pictures = 0;  // drawn since the page was opened
@@ -105,7 +105,7 @@ class Laboratory {
     this.panel.show();
     history.replaceState(null, "", `#${this.settings.toHash()}`);
     this.namePreset();
-    this.run = this.emptyRun(this.run.id + 1);
+    this.run = { ...this.emptyRun(this.run.id + 1), values: { ...this.settings.values } };
     this.replaying = null;
     this.shown = undefined;
     this.enter("running");
@@ -130,7 +130,7 @@ class Laboratory {
   progress(said) {
     const run = this.run;
     if (said.run !== run.id) return;
-    for (const [time, neck, height, energy] of said.rows) run.rows.push({ time, neck, height, energy });
+    for (const [time, neck, height, energy, maturity] of said.rows) run.rows.push({ time, neck, height, energy, maturity });
     run.time = said.time_us ?? run.time;
     if (said.shape) run.frames.push(new Frame(run.time, said.shape));
     if (run.frames.length > MOST_FRAMES) this.thin(run);
@@ -214,8 +214,11 @@ class Laboratory {
       this.stage.draw(frame, old);
       if (frame) this.stage.canvas.setAttribute("aria-label", this.picture(frame));
     }
+    const matures = [run, this.kept].some((seen) => seen?.rows[0]?.maturity < 1);
+    find("maturity").parentElement.hidden = !matures;
+    document.querySelector(".curves").classList.toggle("four", matures);
     if (this.state !== "running" || this.pictures % 4 === 0)  // curves grow by less than what is seen at once
-      for (const chart of this.charts) chart.draw(run, this.kept, this.shown === undefined ? undefined : frame?.time);
+      for (const chart of this.charts.slice(0, matures ? 4 : 3)) chart.draw(run, this.kept, this.shown === undefined ? undefined : frame?.time);
     find("warnings").hidden = run.warnings.length === 0;
     if (find("warnings").childElementCount !== run.warnings.length)
       find("warnings").replaceChildren(...run.warnings.map((text) => element("li", {}, text)));

@@ -11,18 +11,43 @@ function element(kind, attributes = {}, ...children) {
   return made;
 }
 
+/** One row of SLIDERS in the panel; what kinds of it add is how a setting is put in and shown. */
+class Control {
+  constructor(row, settings, input, ...parts) {
+    Object.assign(this, { row, settings, input });
+    this.note = element("p", { id: `${input.id}-note` }, row.typical);
+    this.element = element("div", { class: "slider" }, ...parts, this.note);
+  }
+
+  /** A visitor's value, with what it brings. */
+  put(value) {
+    const { row, settings } = this, before = settings.get(row.key);
+    settings.change(row.key, value);
+    for (const [name, other] of Object.entries(row.implies?.(value, settings, before) ?? {})) settings.set(name, other);
+  }
+
+  show() {
+    const { row, settings } = this, refusal = row.refused?.(settings);
+    this.element.hidden = row.when !== undefined && !row.when(settings);
+    this.input.disabled = refusal !== undefined;
+    this.note.textContent = refusal ?? row.typical;
+    this.element.classList.toggle("changed", row.key in settings.values);
+  }
+}
+
+const controlId = (row) => `slider-${row.key.replace(".", "-")}`;
+
 /** A slider is linear, or logarithmic in a thousand parts. */
-class Slider {
+class Slider extends Control {
   constructor(row, settings, changed) {
-    Object.assign(this, { row, settings });
-    const id = `slider-${row.key.replace(".", "-")}`;
+    const id = controlId(row);
     const range = row.log ? { min: "0", max: "1000", step: "1" } : { min: row.from, max: row.to, step: row.step };
-    this.input = element("input", { type: "range", id, "aria-describedby": `${id}-note`,
+    const input = element("input", { type: "range", id, "aria-describedby": `${id}-note`,
       ...Object.fromEntries(Object.entries(range).map(([key, value]) => [key, String(value)])) });
-    this.output = element("output", { for: id, "aria-live": "off" });
-    this.element = element("div", { class: "slider" }, element("label", { for: id }, row.label), this.output, this.input,
-      element("p", { id: `${id}-note` }, row.typical));
-    this.input.addEventListener("input", () => {
+    const output = element("output", { for: id, "aria-live": "off" });
+    super(row, settings, input, element("label", { for: id }, row.label), output, input);
+    this.output = output;
+    input.addEventListener("input", () => {
       this.store();
       this.show();
       changed();
@@ -37,22 +62,67 @@ class Slider {
   store() {
     const { row } = this, place = Number(this.input.value);
     const shown = row.log ? Number((row.from * (row.to / row.from) ** (place / 1000)).toPrecision(2)) : place;
-    const value = row.meant ? Number(row.meant(shown).toPrecision(9)) : shown;
-    this.settings.set(row.key, value);
-    for (const [name, other] of Object.entries(row.implies?.(value) ?? {})) this.settings.set(name, other);
+    this.put(row.meant ? Number(row.meant(shown).toPrecision(9)) : shown);
   }
 
   /** Moves the handle to the setting, and says its value. */
   show() {
+    super.show();
     const { row } = this, shown = this.shownValue;
+    if (row.limits) this.narrow(...row.limits(this.settings));
     if (typeof shown === "number" && document.activeElement !== this.input)
-      this.input.value = row.log ? (1000 * Math.log(shown / row.from)) / Math.log(row.to / row.from) : shown;
+      this.input.value = row.log ? (1000 * Math.log(Math.max(shown, row.from) / row.from)) / Math.log(row.to / row.from) : shown;
     const words = typeof shown === "number" && Number.isFinite(shown) ? short(shown) : String(shown);
     this.output.replaceChildren(words, " ", element("small", {}, row.unit));
     this.input.setAttribute("aria-valuetext", `${words} ${row.unit}`);
-    this.element.classList.toggle("changed", row.key in this.settings.values);
+  }
+
+  /** Leaves the slider its whole steps between two values. */
+  narrow(least, most) {
+    const { from, to, step } = this.row;
+    this.input.min = Math.max(from, step * Math.ceil(least / step));
+    this.input.max = Math.min(to, step * Math.floor(most / step));
   }
 }
+
+/** One of a few words. */
+class Choice extends Control {
+  constructor(row, settings, changed) {
+    const id = controlId(row);
+    const input = element("select", { id, "aria-describedby": `${id}-note` },
+      ...Object.entries(row.choices).map(([value, words]) => element("option", { value }, words)));
+    super(row, settings, input, element("label", { for: id }, row.label), input);
+    input.addEventListener("change", () => {
+      this.put(input.value);
+      changed();
+    });
+  }
+
+  show() {
+    super.show();
+    this.input.value = String(this.settings.get(this.row.key));
+  }
+}
+
+/** A box: ticked where the setting is not its default. */
+class Tick extends Control {
+  constructor(row, settings, changed) {
+    const id = controlId(row);
+    const input = element("input", { type: "checkbox", id, "aria-describedby": `${id}-note` });
+    super(row, settings, input, element("label", { class: "check", for: id }, input, row.label));
+    input.addEventListener("change", () => {
+      this.put(input.checked ? row.ticked(settings) : undefined);
+      changed();
+    });
+  }
+
+  show() {
+    super.show();
+    this.input.checked = this.row.key in this.settings.values;
+  }
+}
+
+const controlOf = (row) => (row.choices ? Choice : row.ticked ? Tick : Slider);
 
 /** Sections that this engine does not read. */
 const unread = (name) => name.startsWith("phase_field") || name === "boundary_integral.threads";
@@ -60,7 +130,7 @@ const unread = (name) => name.startsWith("phase_field") || name === "boundary_in
 class Panel {
   constructor(settings, changed) {
     this.settings = settings;
-    this.sliders = SLIDERS.map((row) => new Slider(row, settings, () => {
+    this.sliders = SLIDERS.filter(({ key }) => settings.table.has(key)).map((row) => new (controlOf(row))(row, settings, () => {
       this.show();
       changed();
     }));
@@ -90,7 +160,7 @@ class Panel {
       : element("input", { id, type: "text", "aria-describedby": `${id}-note`, spellcheck: "false", autocomplete: "off",
         ...(typeof row.default === "number" ? { inputmode: "decimal" } : {}) });
     input.addEventListener("change", () => {
-      this.settings.set(row.name, typedValue(input.value, row.default));
+      this.settings.change(row.name, typedValue(input.value, row.default));
       this.show();
       changed();
     });
