@@ -53,7 +53,7 @@ def write_tables(directory):
                 mode = group.create_group(f"mode_{m}")
                 mode.attrs["growth_per_us"] = growth(m, time)
                 amplitude = 0.1 * np.exp(-m * time)
-                for name, values in {"w": w, "c": 0 * w, "worst": amplitude * w, "worst_at_start": 0.1 * w}.items():
+                for name, values in {"w": w, "c": 0 * w, "worst": amplitude * w**2, "worst_at_start": 0.1 * w}.items():
                     mode[name] = values
                 rates += [f"{time},{m},{rank},{growth(m, time) - rank},0,10,90" for rank in range(3)]
                 for name in INITIAL:
