@@ -18,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double widest = 20, rim = 40;  // of bud and membrane, nm
+constexpr double bud_radius = 20, rim_radius = 40;  // of bud and membrane, nm
 
 /// A bud with a neck of this radius.
 Contour bud(double neck) {
@@ -26,9 +26,9 @@ Contour bud(double neck) {
     constexpr int points = 600;
     for (int i = 0; i <= points; ++i) {
         const double t = 3.0 * i / points;
-        const double r = t < 1   ? widest * std::sin(pi * t / 2)
-                         : t < 2 ? neck + (widest - neck) * (1 + std::cos(pi * (t - 1))) / 2
-                                 : neck + (rim - neck) * (1 - std::cos(pi * (t - 2) / 2));
+        const double r = t < 1   ? bud_radius * std::sin(pi * t / 2)
+                         : t < 2 ? neck + (bud_radius - neck) * (1 + std::cos(pi * (t - 1))) / 2
+                                 : neck + (rim_radius - neck) * (1 - std::cos(pi * (t - 2) / 2));
         contour.curve.r.push_back(r);
         contour.curve.z.push_back(100 - 20 * t);
     }
@@ -78,7 +78,7 @@ class NarrowingNeck : public Scheme {
 
 TEST_CASE("a step ends where a collar's neck is due, and the collar knows its place", "[collar]") {
     Parameters p;
-    p.domain.radius = rim;
+    p.domain.radius = rim_radius;
     p.domain.height = 200;
     p.domain.membrane_height = 40;
     p.membrane.collar_force = 20;
@@ -98,9 +98,10 @@ TEST_CASE("a step ends where a collar's neck is due, and the collar knows its pl
     // The area above the neck, by Simpson's rule of the shape; the contour's polygon leaves 1e-5 of it.
     double area = 0;
     const auto density = [](double t) {
-        const double r = t < 1 ? widest * std::sin(pi * t / 2) : 10 + (widest - 10) * (1 + std::cos(pi * (t - 1))) / 2;
+        const double r =
+            t < 1 ? bud_radius * std::sin(pi * t / 2) : 10 + (bud_radius - 10) * (1 + std::cos(pi * (t - 1))) / 2;
         const double slope =
-            t < 1 ? widest * pi / 2 * std::cos(pi * t / 2) : -(widest - 10) * pi / 2 * std::sin(pi * (t - 1));
+            t < 1 ? bud_radius * pi / 2 * std::cos(pi * t / 2) : -(bud_radius - 10) * pi / 2 * std::sin(pi * (t - 1));
         return 2 * pi * r * std::hypot(slope, 20);
     };
     constexpr int intervals = 1000;
