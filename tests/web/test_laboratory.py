@@ -6,17 +6,13 @@ import json
 import math
 import os
 import pathlib
-import re
 import subprocess
-import sys
 import tempfile
 import time
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "comparisons"))
-import browser
+from laboratory_page import PAGE, SHORT, VISIBLE, Page, needs_page
 
-PAGE = pathlib.Path(os.environ.get("ENDOFLOW_PAGE", "build/web/index.html"))
 PROGRAM = os.environ.get("ENDOFLOW_PROGRAM", "build/endoflow")
 
 # Both engines make the same steps, but sums in WebAssembly are added in another order: the integrator's steps then differ
@@ -28,12 +24,6 @@ CASES = {
     "molecules.patch_radius=28": ["molecules.patch_radius=28"],
     "fluid.dynamics=geometric": ["fluid.dynamics=geometric"],
 }
-
-# A run of a second, which ends before it buds.
-SHORT = "time.end=0.05"
-
-# What a page from a disk makes for itself, its worker and its downloads: nobody else's have an origin of null.
-OWN = re.compile(r"network request: blob:null/[0-9a-f-]{36}")
 
 # A request that the content security policy must refuse, from wherever it runs; resolves to the directive that refused it.
 FORBIDDEN = """new Promise((resolve) => {
@@ -57,9 +47,6 @@ PIXELS = """((id, name) => {
     return count;
 })"""
 
-
-# Whether a person sees an element.
-VISIBLE = "((id) => document.getElementById(id).checkVisibility())"
 
 # What is refused of the ends of all sliders, of all words and boxes; those that know of other settings one after the other, too.
 EVERY_SLIDER = """(async () => {
@@ -115,67 +102,7 @@ def native_budding(settings):
         return json.loads((native_run(settings, scratch) / "run.json").read_text())["events"]["budding"]["time_us"]
 
 
-class Page(unittest.TestCase):
-    """One browser for all; each test opens the page anew."""
-
-    @classmethod
-    def setUpClass(cls):
-        cls.browser = browser.Browser(1366, 768)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.__exit__()
-
-    def setUp(self):
-        self.browser.problems.clear()
-
-    def tearDown(self):
-        self.assertEqual([problem for problem in self.browser.problems if not OWN.fullmatch(problem)], [])
-        self.browser.resize(1366, 768)
-        self.browser.prefer("light")
-
-    def open(self, settings="", ready="window.laboratory?.run?.rows.length > 2"):
-        """Open the page with a link's settings."""
-        self.browser.visit(f"{PAGE.resolve().as_uri()}#{settings}")
-        self.wait(ready)
-
-    def wait(self, condition, seconds=300):
-        end = time.monotonic() + seconds
-        while self.browser.evaluate(condition) is not True:
-            if time.monotonic() > end:
-                self.fail(f"never: {condition}; {self.browser.problems}")
-            time.sleep(0.05)
-
-    def press(self, button):
-        """Click the button of an id."""
-        self.browser.evaluate(f"document.getElementById('{button}').click()")
-
-    def type(self, field, value):
-        """Give a field or a list of choices a value, as a person does."""
-        self.browser.evaluate(
-            f"""(() => {{ const input = document.getElementById('{field}');
-            input.value = '{value}'; input.dispatchEvent(new Event('change')); }})()"""
-        )
-
-    def slide(self, slider, value):
-        """Move a slider of the settings, or choose from a list of them, as a person does."""
-        self.browser.evaluate(
-            f"""(() => {{ const input = document.getElementById('slider-{slider}');
-            input.value = '{value}'; for (const kind of ['input', 'change']) input.dispatchEvent(new Event(kind)); }})()"""
-        )
-
-    def values(self):
-        """All settings that are no defaults."""
-        return self.browser.evaluate("laboratory.settings.values")
-
-    def text(self, part):
-        """What an element says when everything until now has been drawn."""
-        self.browser.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
-        return self.browser.evaluate(f"document.getElementById('{part}').textContent")
-
-
-@unittest.skipUnless(browser.chromium(), "chromium is not installed")
-@unittest.skipUnless(PAGE.exists(), "the page is not built: make web")
+@needs_page
 class Laboratory(Page):
     """What it computes."""
 
@@ -317,8 +244,7 @@ class Laboratory(Page):
         self.wait(f"{PIXELS}('height', '--kept') === 0")
 
 
-@unittest.skipUnless(browser.chromium(), "chromium is not installed")
-@unittest.skipUnless(PAGE.exists(), "the page is not built: make web")
+@needs_page
 class TakenAlong(Page):
     """Links, files, and what must not leave the page."""
 
@@ -416,109 +342,6 @@ class TakenAlong(Page):
         self.assertEqual(self.browser.evaluate(IN_A_WORKER), "connect-src")
         self.browser.problems.clear()  # of what was refused
         self.assertNotRegex(PAGE.read_text(encoding="utf-8"), r"""(?:src|href)=["']?(?:https?:)?//""")
-
-
-@unittest.skipUnless(browser.chromium(), "chromium is not installed")
-@unittest.skipUnless(PAGE.exists(), "the page is not built: make web")
-class ForEverybody(Page):
-    """The tour, keyboard, screen readers, small windows, motion."""
-
-    def test_the_tour_sets_the_laboratory(self):
-        self.open()
-        self.press("tour-open")
-        titles = []
-        for step in range(1, 7):
-            self.wait(f"document.getElementById('tour-place').textContent === 'Step {step} of 6'")
-            self.wait("laboratory.run.rows.length > 1 && laboratory.state !== 'failed'")
-            titles.append(self.browser.evaluate("document.activeElement.textContent"))
-            self.press("tour-next")
-        self.assertEqual(len(set(titles)), 6)
-        self.assertEqual(self.browser.evaluate("laboratory.settings.values"), {"fluid.dynamics": "geometric"})
-
-    def test_keys_go_through_time(self):
-        self.open(SHORT)
-        self.wait("laboratory.state === 'ended'")
-        last = self.browser.evaluate("laboratory.run.frames.length - 1")
-        self.browser.evaluate("document.getElementById('stage').focus()")
-        self.browser.press("ArrowLeft")
-        self.wait(f"document.getElementById('when').value === '{last - 1}'")
-        self.browser.press("Home")
-        self.wait("document.getElementById('stage').getAttribute('aria-label').includes('at 0 microseconds')")
-        self.browser.press("ArrowRight")
-        self.wait("document.getElementById('when').value === '1'")
-
-    def test_everything_has_a_name(self):
-        self.open("time.end=0.3")  # there is a neck by then
-        self.wait("laboratory.state === 'ended'")
-        self.browser.evaluate("document.getElementById('all').open = true")
-        parts = self.browser.named_parts()
-        controls = [part for part in parts if part[0] in ("button", "slider", "textbox", "combobox", "checkbox", "link", "image", "DisclosureTriangle")]
-        self.assertGreater(len(controls), 80)
-        self.assertEqual([part for part in controls if not part[1].strip()], [])
-        images = [name for role, name, _ in parts if role == "image"]
-        self.assertEqual(len(images), 4)
-        for name, unit in zip(images, ("nm", "nm", "nm", "pN nm")):
-            self.assertIn(unit, name)
-            self.assertRegex(name, r"\d")
-
-    def test_tab_reaches_everything_in_the_page_s_order(self):
-        self.open(SHORT)
-        self.wait("laboratory.state === 'ended'")
-        wanted = self.browser.evaluate(
-            """[...document.querySelectorAll("a[href], button, input, select, summary, [tabindex='0']")]
-            .filter((part) => part.checkVisibility() && !part.disabled).map((part) => part.id || part.textContent)"""
-        )
-        reached = []
-        for _ in wanted:
-            self.browser.press("Tab")
-            reached.append(self.browser.evaluate("document.activeElement.id || document.activeElement.textContent"))
-        self.assertEqual(reached, wanted)
-
-    def test_no_window_is_too_narrow(self):
-        """A laptop's at 200 % and 400 %, a phone's: WCAG 2.2, 1.4.4 and 1.4.10."""
-        self.open(SHORT)
-        for width, height in ((683, 384), (390, 844), (320, 640)):
-            with self.subTest(width=width):
-                self.browser.resize(width, height)
-                self.browser.evaluate("document.getElementById('all').open = true")
-                self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
-
-    def test_reduced_motion_shows_the_end_alone(self):
-        self.browser.prefer("light", motion="reduce")
-        self.open(SHORT, ready="window.laboratory?.state === 'running'")
-        self.browser.evaluate(
-            """(() => { const { stage } = laboratory, draw = stage.draw.bind(stage); window.drawn = new Set();
-            stage.draw = (frame, kept) => { drawn.add(frame?.time); draw(frame, kept); }; })()"""
-        )
-        self.wait("laboratory.state === 'ended'")
-        self.wait("drawn.has(laboratory.run.frames.at(-1).time)")
-        self.assertLessEqual(self.browser.evaluate("drawn.size"), 2)
-
-
-def luminance(colour):
-    """Relative luminance of "#rrggbb" (WCAG 2.2)."""
-    parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
-    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
-    return sum(weight * part for weight, part in zip((0.2126, 0.7152, 0.0722), linear))
-
-
-class Contrast(unittest.TestCase):
-    """WCAG 2.2, 1.4.3 and 1.4.11: 4.5 for text, 3 for what has to be seen without being read."""
-
-    TEXT = ["ink page", "ink panel", "muted page", "muted panel", "muted outside", "muted inside", "ink inside",
-            "coated panel", "on-accent accent", "warn-ink warn", "bad-ink bad"]  # fmt: skip
-    SEEN = ["control panel", "control page", "focus page", "focus panel", "accent panel", "kept panel", "kept inside",
-            "kept outside", "bare inside", "bare outside", "coated inside", "coated outside"]  # fmt: skip
-
-    def test_of_both_themes(self):
-        style = (pathlib.Path(__file__).resolve().parents[2] / "web" / "page" / "style.css").read_text(encoding="utf-8")
-        themes = [dict(re.findall(r"--([\w-]+): (#\w{6})", block)) for block in re.findall(r":root \{(.*?)\}", style, re.S)]
-        self.assertEqual(len(themes), 2)
-        for theme in themes:
-            for least, pairs in ((4.5, self.TEXT), (3, self.SEEN)):
-                for pair in pairs:
-                    dark, light = sorted(luminance(theme[name]) for name in pair.split())
-                    self.assertGreaterEqual((light + 0.05) / (dark + 0.05), least, pair)
 
 
 if __name__ == "__main__":
