@@ -45,7 +45,8 @@ def words_of(branch):
     if isinstance(branch, str):
         return branch
     radius, work = branch.columns["followed_value"], branch.work
-    reached = f"{text(radius[0])} to {text(radius[-1])} nm" + ("" if radius[-1] == END else f", {branch.ended}")
+    narrowest = min(radius)  # beyond a fold a branch goes back to wider necks
+    reached = f"{text(radius[0])} to {text(narrowest)} nm" + ("" if narrowest == END else f", {branch.ended}")
     height, push = work["barrier_kT"], work["strongest_constriction_pN"]
     if height == 0:
         return f"{reached}: none, the neck closes by itself and pulls with {text(-push, 3)} pN or more"

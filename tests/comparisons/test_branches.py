@@ -110,12 +110,13 @@ class ReadOff(unittest.TestCase):
             "potential_pN_nm": np.array([10.0, 52.8, 438.0]),
         }
         work = {"barrier_kT": 100.0, "strongest_constriction_pN": 100.0, "barrier_from_nm": 13.0, "barrier_to_nm": 3.0}
+        folded = {**columns, "followed_value": np.array([15.0, 6.0, 8.0])}  # beyond a fold necks are wider again
         closing = {**work, "barrier_kT": 0.0, "strongest_constriction_pN": -60.0}
-        found = [item.Branch(columns, [], "reached the target", work), item.Branch(columns, [], "here", closing)]
+        found = [item.Branch(columns, [], "reached the target", work), item.Branch(folded, [], "here", closing)]
         with mock.patch.object(collar, "held", side_effect=found):
             result = collar.result({}, True)
         self.assertEqual(result.printed[0].ours[""], "15 to 3 nm: 100 k_BT from 13 to 3 nm, 100 pN at most")
-        self.assertIn("none, the neck closes by itself and pulls with 60 pN", result.printed[1].ours[""])
+        self.assertIn("15 to 6 nm, here: none, the neck closes by itself and pulls with 60 pN", result.printed[1].ours[""])
         np.testing.assert_allclose([row["work_kT"] for row in result.rows[:3]], [0, 10, 100], rtol=1e-14)
         with mock.patch.object(collar, "held", side_effect=[StudyError("no-held-neck: none", 3), found[0]]):
             self.assertEqual(collar.result({}, True).printed[0].ours[""], "no-held-neck: none")

@@ -3,7 +3,6 @@
 
 import pathlib
 import re
-import time
 import unittest
 
 from laboratory_page import SHORT, Page, needs_page
