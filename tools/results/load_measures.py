@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from results.measures import at, cost
+from results.measures import at, cost, differences
 
 
 def equal_mass_radius(run, time):
@@ -32,18 +32,13 @@ def passing(rows):
 
 
 def engines_beside(sharp, diffuse, times):
-    """Differences of the diffuse engine at times (µs), relative; a neck's is nan where there is none."""
-    columns = {
-        "height": "bud_height_nm",
-        "neck": "neck_radius_nm",
-        "volume": "volume_extracellular_nm3",
-        "energy": "bending_energy_pN_nm",
-        "load power": "load_power_pN_nm_per_us",
-    }
+    """Differences of the diffuse engine at times (µs), the loads' power among them; a neck's is nan where there is none."""
     rows = []
-    for time in times:
-        row = {"time_us": f"{time:g}", "height_sharp_nm": at(sharp, "bud_height_nm", time)}
-        rows.append(row | {name: at(diffuse, column, time) / at(sharp, column, time) - 1 for name, column in columns.items()})
+    for time, row in zip(times, differences(sharp, diffuse, times)):
+        powers = [at(run, "load_power_pN_nm_per_us", time) for run in (diffuse, sharp)]
+        found = {"time_us": row["time_us"], "height_sharp_nm": at(sharp, "bud_height_nm", time)}
+        found |= {name: row[name] for name in ("height", "neck", "volume", "energy")}
+        rows.append(found | {"load power": powers[0] / powers[1] - 1})
     return rows
 
 

@@ -297,10 +297,7 @@ def ensemble(directory):
     """Rows of the nonlinear runs from random starts beside the linear noise that they inherit."""
     table = endoflow.load_modes(directory).noise.ensemble
     columns = [name for name in table if name not in ("time_us", "members")]
-    return [
-        {"time_us": f"{time:.4g}"} | {name: None if np.isnan(table[name][i]) else float(table[name][i]) for name in columns}
-        for i, time in enumerate(table["time_us"])
-    ]
+    return [{"time_us": f"{time:.4g}"} | {name: float(table[name][i]) for name in columns} for i, time in enumerate(table["time_us"])]
 
 
 def noise_of_budding(directory):
@@ -316,12 +313,15 @@ def inherited_spread(rows, budding):
     return [{"run": "standard", "spread_us": found["spread_us"] * row["neck_inherited_nm"] / row["neck_rms_nm"]}]
 
 
+#: Columns of a noise's table: bud and neck.
+ELLIPTICITIES = ("ellipticity_rms", "ellipticity_inherited", "neck_ellipticity_rms", "neck_ellipticity_inherited")
+
+
 def ellipses(directory, radius):
     """Rows of a coat: displacements by the mode m = 2 and ellipticities at 310 K, from the start to the end."""
     found = endoflow.load_modes(directory).noise
-    names = ("ellipticity_rms", "ellipticity_inherited", "neck_ellipticity_rms", "neck_ellipticity_inherited")
     columns = {"rms_m2_nm": found.modes[2]["rms_nm"], "inherited_m2_nm": found.modes[2]["inherited_nm"]}
-    columns |= {name: found.table[name] for name in names}
+    columns |= {name: found.table[name] for name in ELLIPTICITIES}
     return [
         {"radius_nm": f"{radius}", "time_us": float(time)} | {name: float(values[i]) for name, values in columns.items()}
         for i, time in enumerate(found.times)
@@ -332,8 +332,7 @@ def section(directory, run):
     """What thermal noise has made of a coat by budding, or by the end: m = 2, and the radii of bud and neck (nm)."""
     noise, end = endoflow.load_modes(directory).noise, run.history["time_us"][-1]
     row = {"budding_us": run.event_time("budding"), "bud_nm": at(run, "bud_diameter_nm", end) / 2, "neck_nm": at(run, "neck_radius_nm", end)}
-    names = ("ellipticity_rms", "ellipticity_inherited", "neck_ellipticity_rms", "neck_ellipticity_inherited")
-    return row | {name: float(noise.table[name][noise.last_index]) for name in names}
+    return row | {name: float(noise.table[name][noise.last_index]) for name in ELLIPTICITIES}
 
 
 def flow(run, time, spacing):
