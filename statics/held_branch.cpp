@@ -126,9 +126,7 @@ std::optional<HeldFault> fault_of(const HeldCase& held, const PiecewiseSolution&
 }
 
 HeldState find_held_neck(const Parameters& parameters, const Resolution& resolution) {
-    Parameters free = parameters;
-    free.membrane.pole_force = free.membrane.coat_force = free.membrane.collar_force = 0;
-    free.fluid.pressure_difference = 0;
+    Parameters free = without_loads(parameters);
     const GaussRule rule(resolution.points);
     const auto open = shape_with_neck(free, resolution);
     if (!open)
@@ -144,10 +142,7 @@ HeldState find_held_neck(const Parameters& parameters, const Resolution& resolut
     HeldState state{begin, {cut, cut, 0, 0}};
     state = with_parameter(state, "membrane.spontaneous_curvature", curvature,
                            parameters.membrane.spontaneous_curvature, resolution);
-    state = with_parameter(state, "fluid.pressure_difference", 0, parameters.fluid.pressure_difference, resolution);
-    state = with_parameter(state, "membrane.pole_force", 0, parameters.membrane.pole_force, resolution);
-    state = with_parameter(state, "membrane.coat_force", 0, parameters.membrane.coat_force, resolution);
-    state = with_parameter(state, "membrane.collar_force", 0, parameters.membrane.collar_force, resolution);
+    for (const char* key : load_keys) state = with_parameter(state, key, 0, number_of(parameters, key), resolution);
     if (const auto fault = fault_of(state.held, state.point.solution, rule))
         throw SolverError(name_of(*fault), fmt::format("at {:.6g} nm {}", state.held.radius, text_of(*fault)), remedy);
     return state;

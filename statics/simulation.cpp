@@ -30,9 +30,9 @@ std::vector<std::string> continuable(const Parameters& parameters) {
         is_vesicle(parameters)
             ? std::vector<std::string>{"domain.spheroid_polar_axis", "domain.spheroid_equatorial_axis"}
             : std::vector<std::string>{"molecules.patch_radius", "molecules.interface_width", "domain.radius",
-                                       "membrane.rim_tension",   "membrane.pole_force",       "membrane.coat_force",
-                                       "membrane.collar_force",  "fluid.pressure_difference"};
+                                       "membrane.rim_tension"};
     keys.insert(keys.end(), more.begin(), more.end());
+    if (!is_vesicle(parameters)) keys.insert(keys.end(), load_keys.begin(), load_keys.end());
     if (energetically_coupled(parameters.molecules)) keys.emplace_back("molecules.line_energy");
     return keys;
 }
@@ -48,8 +48,7 @@ std::optional<double> number(const std::string& text) {
 /// Along a branch in a load the membrane may become a tube of any length: it is followed to the top or bottom of the
 /// box.
 bool is_load(const std::string& key) {
-    return key == "membrane.rim_tension" || key == "membrane.pole_force" || key == "membrane.coat_force" ||
-           key == "membrane.collar_force" || key == "fluid.pressure_difference";
+    return key == "membrane.rim_tension" || std::find(load_keys.begin(), load_keys.end(), key) != load_keys.end();
 }
 
 std::string side_reached(const Parameters& parameters, const PiecewiseSolution& solution) {

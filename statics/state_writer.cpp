@@ -28,10 +28,6 @@ Json StateWriter::write(const MembraneCurve& curve, const BendingModel& bending,
     return figures;
 }
 
-double number_of(const Parameters& parameters, const std::string& key) {
-    return std::get<double>(find_parameter(key)->get(parameters));
-}
-
 void print_figures(const Json& figures) {
     for (const auto& [name, value] : figures.items())
         say(stdout, fmt::format("  {:<28} {:.9g}\n", name, value.get<double>()));

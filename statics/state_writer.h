@@ -32,9 +32,6 @@ class StateWriter {
     int count_ = 0;
 };
 
-/// The number that a parameter called "section.key" has.
-[[nodiscard]] double number_of(const Parameters& parameters, const std::string& key);
-
 /// Prints what write() returned.
 void print_figures(const Json& figures);
 

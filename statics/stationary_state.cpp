@@ -94,20 +94,19 @@ Search search_along(const Parameters& parameters, const Resolution& resolution, 
     return search;
 }
 
-/// Follows the state to the case's value of a load, which is 0 in `before`; ends the search there if that fails.
-void add_load(Search& search, const Parameters& before, const Parameters& loaded, const std::string& key,
+/// Follows the state of a case without the load `key` to the load `wanted`; ends the search there if that fails.
+void add_load(Search& search, const CasePath& path, const std::string& key, double wanted,
               const Resolution& resolution) {
-    const double wanted = std::get<double>(find_parameter(key)->get(loaded));
     if (!search.state || wanted == 0) return;
+    const Parameters loaded = path(wanted).parameters;
     const auto go_on = [&](const BranchPoint& point) { return !reaches_top_or_bottom(loaded, point.solution); };
-    auto branch = continue_state(*search.state, path_in(before, key), 0, wanted, go_on, resolution);
+    auto branch = continue_state(*search.state, path, 0, wanted, go_on, resolution);
     search.state.reset();
     search.key = key;
     search.branch = std::move(branch);
     if (!search.branch || search.branch->end != BranchEnd::reached_target) return;
     const GaussRule rule(resolution.points);
-    search.state =
-        refined(stationary_shapes(path_in(loaded, key), wanted, std::abs(wanted)), rule, loaded, search.branch->last);
+    search.state = refined(stationary_shapes(path, wanted, std::abs(wanted)), rule, loaded, search.branch->last);
 }
 
 /// Where the branch of smaller patches ends at the case's spontaneous curvature; empty when none was found.
@@ -142,6 +141,15 @@ double scale_of_curvature(const Parameters& parameters) {
     return curvature > 0 ? curvature : 1 / parameters.domain.radius;
 }
 
+Parameters without_loads(Parameters parameters) {
+    for (const char* key : load_keys) find_parameter(key)->set(parameters, 0.0);
+    return parameters;
+}
+
+double number_of(const Parameters& parameters, const std::string& key) {
+    return std::get<double>(find_parameter(key)->get(parameters));
+}
+
 CasePath path_in(const Parameters& parameters, const std::string& key) {
     return [parameters, &row = *find_parameter(key)](double value) {
         Parameters changed = parameters;
@@ -157,19 +165,14 @@ bool reaches_top_or_bottom(const Parameters& parameters, const PiecewiseSolution
 }
 
 Search search_stationary_state(const Parameters& parameters, const Resolution& resolution) {
-    Parameters on_coat = parameters;
-    on_coat.membrane.collar_force = 0;
-    Parameters pulled = on_coat;
-    pulled.membrane.coat_force = 0;
-    Parameters pushed = pulled;
-    pushed.membrane.pole_force = 0;
-    Parameters free = pushed;
-    free.fluid.pressure_difference = 0;
-    Search search = search_along(free, resolution, neck_is_open);
-    add_load(search, free, pushed, "fluid.pressure_difference", resolution);
-    add_load(search, pushed, pulled, "membrane.pole_force", resolution);
-    add_load(search, pulled, on_coat, "membrane.coat_force", resolution);
-    add_load(search, on_coat, parameters, "membrane.collar_force", resolution);
+    Parameters reached = without_loads(parameters);
+    Search search = search_along(reached, resolution, neck_is_open);
+    for (const char* key : load_keys) {
+        const CasePath path = path_in(reached, key);
+        const double load = number_of(parameters, key);
+        add_load(search, path, key, load, resolution);
+        reached = path(load).parameters;
+    }
     return search;
 }
 

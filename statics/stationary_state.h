@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "shared/support/error.h"
 #include "statics/continuation.h"
 #include "statics/shape_equations.h"
@@ -14,7 +16,7 @@ struct StationaryState {
 };
 
 /// What following the shapes gave: from the flat membrane under the case's tension alone to the case's H0, then to its
-/// pressure, then to its pole force.
+/// loads (`load_keys`).
 struct Search {
     std::string key = "membrane.spontaneous_curvature";  // in which the last branch was followed
     std::optional<Branch> branch;          // the last one; empty when there is not even a solution at H0 = 0
@@ -38,8 +40,18 @@ inline constexpr double closed_neck_radius = 1.0;
 [[nodiscard]] std::optional<Branch> branch_from_flat(const Parameters& parameters, double curvature,
                                                      const Resolution& resolution, const Visitor& go_on);
 
+/// Loads that a shape is followed to one by one, in this order, from the membrane under its tension alone.
+inline constexpr std::array load_keys{"fluid.pressure_difference", "membrane.pole_force", "membrane.coat_force",
+                                      "membrane.collar_force"};
+
+/// The case without these.
+[[nodiscard]] Parameters without_loads(Parameters parameters);
+
 /// |H0|, or what stands for it where that is 0, 1/nm.
 [[nodiscard]] double scale_of_curvature(const Parameters& parameters);
+
+/// The number that a parameter called "section.key" has.
+[[nodiscard]] double number_of(const Parameters& parameters, const std::string& key);
 
 /// The path of cases that differ in one number of the parameter table.
 [[nodiscard]] CasePath path_in(const Parameters& parameters, const std::string& key);

@@ -218,7 +218,7 @@ Eigen::MatrixXd MembraneDynamics::jacobian(const Evaluation& e) const {
     // Velocity freedoms: δu = Y δload with B δu = - δB u.
     Eigen::MatrixXd load_curve = -freedoms.restrict_rows(pack_columns(second.hessian));
     Eigen::MatrixXd load_c = -freedoms.restrict_rows(second.mixed);
-    if (loads_.vertical() || loads_.radial()) {
+    if (loads_.carried()) {
         const CarriedLoadDerivatives pull = carried_load_derivatives(space_, e.samples, loads_);
         load_curve += freedoms.restrict_rows(pack_columns(pull.by_curve));
         load_c += freedoms.restrict_rows(pull.by_c);

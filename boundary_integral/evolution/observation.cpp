@@ -55,16 +55,10 @@ std::optional<Neck> find_neck(const MembraneSpace& space, const MembraneState& s
 }
 
 double area_within(const MembraneSpace& space, const MembraneState& state, double xi) {
-    const QuadratureRule rule = gauss_legendre(static_cast<int>(space.points_per_element()));
+    const MeridianPoints points = points_before(space, state, xi);
     double area = 0.0;
-    for (double begin = 0.0; begin < xi; begin += space.element_width()) {
-        const double half = 0.5 * (std::min(begin + space.element_width(), xi) - begin);
-        for (std::size_t q = 0; q < rule.nodes.size(); ++q) {
-            const double at = begin + half * (1.0 + rule.nodes[q]);
-            const CurvePoint p = curve_point(space.radial().basis(at), space.axial().basis(at), state);
-            area += two_pi * half * rule.weights[q] * p.r * p.g;
-        }
-    }
+    for (std::size_t i = 0; i < points.xi.size(); ++i)
+        area += two_pi * points.weight[i] * points.curve[i].r * points.curve[i].g;
     return area;
 }
 

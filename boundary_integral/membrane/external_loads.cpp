@@ -76,7 +76,7 @@ Eigen::VectorXd external_load(const MembraneSpace& space, const MembraneSamples&
     Eigen::VectorXd load = Eigen::VectorXd::Zero(space.curve_count());
     if (loads.none()) return load;
     if (loads.pressure != 0.0) load += loads.pressure * volume_gradient(space, samples).transpose();
-    if (loads.vertical() || loads.radial()) {
+    if (loads.carried()) {
         const std::vector<MaterialForce> on_material = material_forces(space, samples, loads);
         const double on_coat = force_on_coat(space, samples, loads);
         for (std::size_t i = 0; i < space.xi.size(); ++i) {

@@ -83,4 +83,22 @@ MembraneSamples sample(const MembraneSpace& space, const MembraneState& state) {
     return samples;
 }
 
+MeridianPoints points_before(const MembraneSpace& space, const MembraneState& state, double xi) {
+    const QuadratureRule rule = gauss_legendre(static_cast<int>(space.points_per_element()));
+    MeridianPoints result;
+    for (Index element = 0; element < space.elements(); ++element) {
+        const double begin = static_cast<double>(element) * space.element_width();
+        const double half = 0.5 * (std::min(begin + space.element_width(), xi) - begin);
+        if (half <= 0.0) break;
+        for (std::size_t q = 0; q < rule.nodes.size(); ++q) {
+            const double at = begin + half * (1.0 + rule.nodes[q]);
+            result.xi.push_back(at);
+            result.weight.push_back(half * rule.weights[q]);
+            result.curve.push_back(
+                curve_point(space.radial().basis(at, element), space.axial().basis(at, element), state));
+        }
+    }
+    return result;
+}
+
 }  // namespace endoflow::boundary_integral

@@ -84,4 +84,11 @@ struct MembraneSamples {
 };
 [[nodiscard]] MembraneSamples sample(const MembraneSpace& space, const MembraneState& state);
 
+/// Gauss points of the meridian between the pole and ξ, which may cut an element; `weight` integrates over ξ.
+struct MeridianPoints {
+    std::vector<double> xi, weight;
+    std::vector<CurvePoint> curve;
+};
+[[nodiscard]] MeridianPoints points_before(const MembraneSpace& space, const MembraneState& state, double xi);
+
 }  // namespace endoflow::boundary_integral

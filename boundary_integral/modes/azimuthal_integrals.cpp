@@ -24,17 +24,19 @@ std::mutex& planner() {
 
 }  // namespace
 
-// Cosine transform of 1/rho^p from its values at phi = i pi/half, i = 0 ... half, for the three powers at once.
+// Cosine transform of 1/rho^p from its values at phi = i pi/half, i = 0 ... 2 half - 1, for the three powers at once:
+// the real parts of a Fourier transform. FFTW's cosine transforms (REDFT00) allocate at each execution.
 struct AzimuthalIntegrals::Transform {
-    explicit Transform(std::size_t half_points) : half(half_points), values(powers * (half + 1)) {
+    explicit Transform(std::size_t half_points)
+        : half(half_points), values(powers * 2 * half), transformed(powers * 2 * half) {
         for (std::size_t i = 0; i <= half; ++i) {
             const double sine = std::sin(0.5 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(half));
             sigma.push_back(sine * sine);
         }
         const std::scoped_lock lock(planner());
-        const int length = static_cast<int>(half + 1);
-        const fftw_r2r_kind kind = FFTW_REDFT00;
-        plan = fftw_plan_many_r2r(1, &length, powers, values.data(), nullptr, 1, length, values.data(), nullptr, 1,
+        const int length = static_cast<int>(2 * half);
+        const fftw_r2r_kind kind = FFTW_R2HC;
+        plan = fftw_plan_many_r2r(1, &length, powers, values.data(), nullptr, 1, length, transformed.data(), nullptr, 1,
                                   length, &kind, FFTW_ESTIMATE);
     }
     ~Transform() {
@@ -46,7 +48,7 @@ struct AzimuthalIntegrals::Transform {
 
     std::size_t half;
     std::vector<double> sigma;
-    std::vector<double> values;
+    std::vector<double> values, transformed;
     fftw_plan plan;
 };
 
@@ -72,18 +74,20 @@ void AzimuthalIntegrals::evaluate(double a, double b) {
 
 void AzimuthalIntegrals::by_transform(double a, double b) {
     Transform& t = *transform_;
-    const std::size_t stride = t.half + 1;
-    for (std::size_t i = 0; i < stride; ++i) {
+    const std::size_t stride = 2 * t.half;
+    for (std::size_t i = 0; i <= t.half; ++i) {
         const double inverse = 1.0 / (a + b * t.sigma[i]);
         const double first = std::sqrt(inverse);
         t.values[i] = first;
         t.values[stride + i] = first * inverse;
         t.values[2 * stride + i] = first * inverse * inverse;
     }
+    for (std::size_t p = 0; p < powers; ++p)
+        for (std::size_t i = 1; i < t.half; ++i) t.values[(p + 1) * stride - i] = t.values[p * stride + i];
     fftw_execute(t.plan);
     const double scale = std::numbers::pi / static_cast<double>(t.half);
     for (std::size_t p = 0; p < powers; ++p) {
-        for (std::size_t k = 0; k < count_; ++k) cosine_[p][0][k] = scale * t.values[p * stride + k];
+        for (std::size_t k = 0; k < count_; ++k) cosine_[p][0][k] = scale * t.transformed[p * stride + k];
         // sigma = (1 - cos phi)/2; the highest order is used up at each multiplication.
         for (std::size_t j = 0; j < 3; ++j) {
             const Orders& from = cosine_[p][j];

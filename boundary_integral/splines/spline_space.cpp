@@ -17,6 +17,7 @@ SplineSpace::SplineSpace(int degree, std::vector<double> breakpoints, Parity par
         Index folded = 0;
         if (fold(raw, folded) != 0.0) dimension_ = std::max(dimension_, folded + 1);
     }
+    for (std::size_t element = 0; element < last; ++element) pieces_.push_back(piece(static_cast<Index>(element)));
 }
 
 /// Raw function i is mirrored about the axis into p - 1 - i, and likewise about a mirrored end.
@@ -45,7 +46,7 @@ Index SplineSpace::element_of(double xi) const {
 }
 
 /// Algorithm A2.3 of Piegl & Tiller, "The NURBS Book".
-void SplineSpace::raw_basis(double xi, Index element, int highest, std::array<std::array<double, 6>, 6>& values) const {
+void SplineSpace::raw_basis(double xi, Index element, std::array<std::array<double, 6>, 6>& values) const {
     const Index span = element + degree_;
     const int p = degree_;
     std::array<std::array<double, 6>, 6> ndu{};
@@ -70,7 +71,7 @@ void SplineSpace::raw_basis(double xi, Index element, int highest, std::array<st
         std::size_t s1 = 0;
         std::size_t s2 = 1;
         a[0][0] = 1.0;
-        for (int k = 1; k <= highest; ++k) {
+        for (int k = 1; k <= p; ++k) {
             double d = 0.0;
             const int rk = r - k;
             const int pk = p - k;
@@ -93,38 +94,69 @@ void SplineSpace::raw_basis(double xi, Index element, int highest, std::array<st
         }
     }
     double factor = p;
-    for (int k = 1; k <= highest; ++k) {
+    for (int k = 1; k <= p; ++k) {
         for (int j = 0; j <= p; ++j) values[at(k)][at(j)] *= factor;
         factor *= (p - k);
     }
 }
 
-BasisRow SplineSpace::basis(double xi, Index element) const {
-    if (element < 0) element = element_of(xi);
+SplineSpace::Piece SplineSpace::piece(Index element) const {
+    const bool last = at(element) + 2 == breakpoints_.size();
+    Piece result{breakpoints_[at(last ? element + 1 : element)], {}, {}};
     std::array<std::array<double, 6>, 6> raw{};
-    raw_basis(xi, element, std::min(2, degree_), raw);
-    BasisRow row;
-    row.count = degree_ + 1;
+    raw_basis(result.origin, element, raw);
     for (int j = 0; j <= degree_; ++j) {
         Index folded = 0;
         const double sign = fold(element + j, folded);
-        row.index[at(j)] = sign == 0.0 ? 0 : folded;
-        for (std::size_t k = 0; k < 3; ++k) row.value[k][at(j)] = sign * raw[k][at(j)];
+        result.index[at(j)] = folded;
+        double factorial = 1.0;
+        for (int k = 0; k <= degree_; ++k) {
+            if (k > 0) factorial *= k;
+            result.coefficient[at(k)][at(j)] = sign * raw[at(k)][at(j)] / factorial;
+        }
+    }
+    return result;
+}
+
+BasisRow SplineSpace::basis(double xi, Index element) const {
+    const Piece& piece = pieces_[at(element < 0 ? element_of(xi) : element)];
+    const double x = xi - piece.origin;
+    BasisRow row;
+    row.count = degree_ + 1;
+    row.index = piece.index;
+    auto& [value, first, second] = row.value;
+    for (std::size_t j = 0; j < 6; ++j) {
+        double f = piece.coefficient[5][j], f1 = 0.0, half_f2 = 0.0;
+        for (std::size_t k = 5; k-- > 0;) {
+            half_f2 = half_f2 * x + f1;
+            f1 = f1 * x + f;
+            f = f * x + piece.coefficient[k][j];
+        }
+        value[j] = f;
+        first[j] = f1;
+        second[j] = 2.0 * half_f2;
     }
     return row;
 }
 
 std::array<double, 6> SplineSpace::taylor(const Eigen::VectorXd& coefficients, double xi, Index element) const {
-    std::array<std::array<double, 6>, 6> raw{};
-    raw_basis(xi, element, degree_, raw);
-    std::array<double, 6> derivatives{};
-    for (int j = 0; j <= degree_; ++j) {
-        Index folded = 0;
-        const double sign = fold(element + j, folded);
-        if (sign == 0.0) continue;
-        for (int k = 0; k <= degree_; ++k) derivatives[at(k)] += sign * raw[at(k)][at(j)] * coefficients[folded];
+    const Piece& piece = pieces_[at(element)];
+    std::array<double, 6> polynomial{};
+    for (std::size_t k = 0; k < 6; ++k) {
+        for (std::size_t j = 0; j < 6; ++j) {
+            const double by = piece.coefficient[k][j];
+            if (by != 0.0) polynomial[k] += by * coefficients[piece.index[j]];
+        }
     }
-    return derivatives;
+    // Horner's scheme again and again shifts the polynomial to ξ.
+    const double x = xi - piece.origin;
+    double factorial = 1.0;
+    for (std::size_t k = 0; k < 6; ++k) {
+        for (std::size_t j = 5; j-- > k;) polynomial[j] += x * polynomial[j + 1];
+        if (k > 0) factorial *= static_cast<double>(k);
+        polynomial[k] *= factorial;
+    }
+    return polynomial;
 }
 
 std::vector<double> SplineSpace::greville_points() const {

@@ -71,12 +71,22 @@ class SplineSpace {
     std::vector<double> knots_;
     Index dimension_ = 0;
 
+    /// The polynomials of one interval: the functions that do not vanish there, and their derivatives over k!, k = 0 …
+    /// degree, at its left end, of the last interval at its right one: conditions at 0 and 1 hold to the last bit.
+    struct Piece {
+        double origin;
+        std::array<Index, 6> index;
+        std::array<std::array<double, 6>, 6> coefficient;  // coefficient[k][j]; zeros beyond the degree
+    };
+    std::vector<Piece> pieces_;
+
     [[nodiscard]] Index raw_count() const { return static_cast<Index>(knots_.size()) - degree_ - 1; }
     [[nodiscard]] Index mirror_about_start(Index raw) const { return degree_ - 1 - raw; }
     [[nodiscard]] Index mirror_about_end(Index raw) const { return 2 * raw_count() - 1 - degree_ - raw; }
     [[nodiscard]] double fold(Index raw, Index& folded) const;  // sign (or 0) and folded index of a raw B-spline
-    /// Raw functions first..first+degree on the knot span, derivatives 0..highest
-    void raw_basis(double xi, Index element, int highest, std::array<std::array<double, 6>, 6>& values) const;
+    [[nodiscard]] Piece piece(Index element) const;
+    /// Raw functions first..first+degree on the knot span, all derivatives
+    void raw_basis(double xi, Index element, std::array<std::array<double, 6>, 6>& values) const;
 };
 
 [[nodiscard]] std::vector<double> uniform_breakpoints(Index elements);

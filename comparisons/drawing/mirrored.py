@@ -23,8 +23,8 @@ INK = "#333333"
 #: The film: pixels of its width, frames, milliseconds of each and of the last one, and how early ones crowd (times ∝ index^PACE).
 WIDTH, FRAMES, DURATION, HOLD, PACE = 720, 90, 70, 1800, 1.6
 
-#: Dots per inch of picture and film.
-DOTS, FILM_DOTS = 160, 120
+#: Dots per inch of the film.
+FILM_DOTS = 120
 
 
 def last_moment(a, b):
@@ -81,7 +81,7 @@ def picture(a, b):
     width, left, gap, top, bottom = 7.2, 0.72, 0.16, 0.5, 1.2
     panel = (width - left - 0.1 - gap) / 2
     height = top + bottom + gap + 2 * frame.height_of(panel)
-    figure, grid = plt.subplots(2, 2, figsize=(width, height), sharex=True, sharey=True, dpi=DOTS)
+    figure, grid = plt.subplots(2, 2, figsize=(width, height), sharex=True, sharey=True)
     figure.subplots_adjust(
         left=left / width,
         right=1 - 0.1 / width,

@@ -1,6 +1,8 @@
 """Static plots of a comparison, each written as PNG and SVG on light ground."""
 
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.collections import LineCollection
 from matplotlib.ticker import LogLocator, NullFormatter
 from scipy.integrate import trapezoid
@@ -50,11 +52,12 @@ def save_all(figures, directory):
 
 def save(figure, directory, name):
     """Write a figure as directory/name.png and .svg and close it."""
+    # savefig() would go through every figure once more before it draws it
     with named(directory / f"{name}.png"):
-        figure.savefig(directory / f"{name}.png")
+        FigureCanvasAgg(figure).print_png(directory / f"{name}.png")
     figure.set_layout_engine("none")  # keeps the layout just made
     with named(directory / f"{name}.svg"):
-        figure.savefig(directory / f"{name}.svg", metadata={"Date": None})
+        FigureCanvasSVG(figure).print_svg(directory / f"{name}.svg", metadata={"Date": None})
     plt.close(figure)
 
 

@@ -58,7 +58,7 @@ RC = {
     "legend.frameon": False,
     "lines.linewidth": 1.8,
     "lines.solid_capstyle": "round",
-    "savefig.dpi": 200,
+    "figure.dpi": 200,
     "savefig.facecolor": "white",
     "svg.hashsalt": "endoflow",
     "svg.fonttype": "path",

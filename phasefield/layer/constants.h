@@ -73,7 +73,7 @@ inline constexpr Constant constant_table[] = {
     {"largest_motion", 1.5, "ε", "of the membrane in one step"},
     {"longer_steps", 5, "", "than those of time.max_step's default, which the sharp engine has"},
     // Newton's method (step_solver.cpp)
-    {"newton_part", 0.002, "the step's tolerance", "to which Newton's method converges"},
+    {"newton_part", 0.02, "the step's tolerance", "to which Newton's method converges"},
     {"most_iterations", 16, "", "with the same factors: new ones cost more, but help later steps, too"},
     {"seen_enough", 3, "", "iterations after which the number needed is foreseen"},
     {"farthest", 0.25, "ε", "from where the factors were made: beyond they do not serve"},

@@ -40,6 +40,8 @@ struct Loads {
     [[nodiscard]] bool radial() const { return collar_force != 0 && collar_place != 0; }
     /// Whether the membrane is pulled along z.
     [[nodiscard]] bool vertical() const { return pole_force != 0 || coat_force != 0; }
+    /// Whether the membrane itself is pulled, along r or z.
+    [[nodiscard]] bool carried() const { return vertical() || radial(); }
     [[nodiscard]] bool has_ring() const { return ring[1] > 0; }
     /// Whether part of its pull rides on the material.
     [[nodiscard]] bool on_material() const { return pole_force != 0 || (coat_force != 0 && has_ring()) || radial(); }
