@@ -2,7 +2,7 @@
 #
 #   make demo       install what is missing, build, run both engines on cases/demo.toml, compare: out/demo/report.html
 #   make test       the same set-up, then all tests and make lint   (SANITIZE=1: with sanitizers); outside of CI clang-tidy
-#                   looks at what changed and at a quarter of the rest, another one from commit to commit: LINT_PARTS=1, all
+#                   looks at what changed and at an eighth of the rest, another one from commit to commit: LINT_PARTS=1, all
 #                   SANITIZE=thread: the engine with threads, under the thread sanitizer
 #                   where emscripten is installed, it builds and tries the page of `make web` too: 3 CPU minutes, once
 #   make build      build/endoflow and its engines
@@ -11,7 +11,8 @@
 #   make bench      what the engines cost here: out/bench/bench.md   (BENCH=--quick: minutes instead of tens of minutes)
 #   make web        the sharp engine as a page that needs no installation: build/web/index.html
 #   make results    all numbers of docs/ anew, hours: docs/results/data, figures, pages   (RESULTS='--only STUDY', --list, --pages)
-#   make docs       docs/ as HTML in build/docs      make docs-check  run every command of README and docs/
+#   make docs       docs/ as HTML in build/docs      make notebooks  python/notebooks executed and stored
+#   make docs-check run every command of README and docs/, and the notebooks
 #   make format     clang-format on all sources          make lint      clang-format, clang-tidy and pyflakes, check only
 #   make portability DISTRIBUTION=trixie [TARGET=demo]   the committed tree in a bare Debian: log in out/portability
 # UNITY=OFF compiles file by file: longer from nothing, shorter after an edit; the choice where a compiler cache is set.
@@ -53,7 +54,7 @@ ifeq ($(shell id -u),0)
   export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
 endif
 
-.PHONY: all demo announcement hero test build configure packages test-packages run-demo install package bench results docs docs-check format
+.PHONY: all demo announcement hero test build configure packages test-packages run-demo install package bench results docs docs-check notebooks format
 .PHONY: lint portability web web-page clean
 
 all: build
@@ -93,7 +94,7 @@ hero: out/demo/hero.webp
 test: test-packages
 	@$(MAKE) --no-print-directory configure TESTS=ON
 	cmake --build $(build)
-	@$(MAKE) --no-print-directory lint LINT_PARTS=$(or $(LINT_PARTS),$(if $(CI),1,4))
+	@$(MAKE) --no-print-directory lint LINT_PARTS=$(or $(LINT_PARTS),$(if $(CI),1,8))
 	@$(page_for_tests)
 	ctest --test-dir $(build) --parallel $(CORES) --output-on-failure --timeout 3600 $(tests)
 
@@ -127,6 +128,11 @@ docs: build
 docs-check: build
 	@tools/install_packages docs test
 	python3 tools/docs/check.py $(build)
+
+# Executes python/notebooks and stores what their cells show.
+notebooks: build
+	@tools/install_packages docs test
+	python3 tools/docs/check.py $(build) --store
 
 format:
 	tools/clang_format -i

@@ -73,7 +73,7 @@ SUMMARY = {
     "vesicle's branch": "membrane.spontaneous_curvature from 0 to 0.002",
 }
 
-SHARP = ("boundary_integral.elements=36", "output.field_interval=0")
+SHARP = ("boundary_integral.elements=36", "output.field_interval=0", "output.shape_interval=0.001")
 AXES = ("--vary", "molecules.patch_radius=20:24", "--vary", "membrane.bending_stiffness=100:120")
 VESICLE = {
     "domain.kind": "free-space",
@@ -139,7 +139,7 @@ class Results:
     def make(self):
         sharp = options(SHARP)
         self.made("sharp", "run", "boundary-integral", "standard", "--until", "0.002", *sharp)
-        vesicle = options(("boundary_integral.elements=16", "output.field_interval=0"))
+        vesicle = options(("boundary_integral.elements=16", *SHARP[1:]))
         self.made("sharp vesicle", "run", "boundary-integral", "closed_vesicle", "--until", "0.002", *vesicle)
         self.made("failed at once", "run", "boundary-integral", "standard", code=3,
                   *options(("boundary_integral.elements=20", "molecules.interface_width=0.05", "output.field_interval=0")))

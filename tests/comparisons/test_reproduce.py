@@ -121,7 +121,7 @@ class Reproduce(StudyTest):
         self.assertIn("not run", self.page("table2"))
 
     def test_every_item_is_written(self):
-        process = self.reproduce("all", "--quick", "--until", "0.4")
+        process = self.reproduce("all", "--quick", "--until", "0.2")
         self.assertEqual(process.returncode, 0, process.stderr)
         for item in NAMES:
             self.assertTrue(self.rows(item), item)

@@ -17,7 +17,7 @@ from scratch import scratch_directory  # noqa: E402
 PROGRAM = None
 END = 2e-5  # µs, a few steps
 
-# Newton's method ends at 1/500 of a step's tolerance; where, depends on the factors, and those on the processes. On other
+# Newton's method ends at a fiftieth of a step's tolerance; where, depends on the factors, and those on the processes. On other
 # meshes and with other units that has changed first volumes, small differences of what rises and what sinks, by 5e-5. Here
 # it is at most 4e-7 in volume, 2e-7 in height, 5e-8 in energy, 2e-9 in mass and 1e-12 in area; times are the same.
 TOLERANCES = {

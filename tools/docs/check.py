@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""tools/docs/check.py BUILD [--parse]: runs the commands of README.md and docs/ and the notebooks; --parse only parses the commands.
+"""tools/docs/check.py BUILD [--parse|--store]: runs the commands of README.md and docs/ and the notebooks; --parse only parses the
+commands, --store runs the notebooks alone and stores what their cells show.
 
 Blocks run in the order of the pages in one scratch directory that holds links to the project's build, cases and python.
 docs/developer-guide.md says how a block is marked. Exit code 1 when something fails, with the command and what it said.
@@ -67,12 +68,12 @@ def run(block, scratch, build):
     return ""
 
 
-def execute(notebook, scratch, build):
+def execute(notebook, scratch, build, store):
     """Execute a notebook (path) in a directory of its own below scratch; returns what is wrong, or ""."""
     own = scratch / "notebooks" / notebook.stem
     own.mkdir(parents=True)
     started = time.monotonic()
-    command = [python_of(build), str(Path(__file__).with_name("notebooks.py")), str(notebook), str(own)]
+    command = [python_of(build), str(Path(__file__).with_name("notebooks.py")), str(notebook), str(own), *(["--store"] if store else [])]
     variables = {**environment(build), "PYTHONPATH": str(ROOT / "python")}
     process = subprocess.run(command, env=variables, capture_output=True, text=True, check=False)
     print(f"{time.monotonic() - started:6.1f} s  {notebook.relative_to(ROOT)}", flush=True)
@@ -124,8 +125,8 @@ def unknown_options(words, build):
 
 def main(arguments):
     """Check all pages; returns the exit code."""
-    parse_only = "--parse" in arguments
-    build = Path(next(one for one in arguments if one != "--parse")).resolve()
+    parse_only, store = ("--parse" in arguments), ("--store" in arguments)
+    build = Path(next(one for one in arguments if not one.startswith("--"))).resolve()
     failures, counts = [], {"run": 0, "parsed": 0}
     with tempfile.TemporaryDirectory() as scratch:
         for name in SHARED:
@@ -133,7 +134,7 @@ def main(arguments):
         (Path(scratch) / "build").symlink_to(build)
         (Path(scratch) / TOOLS).mkdir()
         (Path(scratch) / TOOLS / "python3").symlink_to(python_of(build))
-        for page in [ROOT / "README.md", *pages()]:
+        for page in [] if store else [ROOT / "README.md", *pages()]:
             for block in blocks(page):
                 if block.mark.startswith("file: "):
                     (Path(scratch) / block.mark.removeprefix("file: ")).write_text(block.text, encoding="utf-8")
@@ -146,7 +147,7 @@ def main(arguments):
                 if problem:
                     failures.append(f"{readable(block)}\n    {problem.strip()}")
         for notebook in [] if parse_only else sorted((ROOT / "python" / "notebooks").glob("*.ipynb")):
-            problem = execute(notebook, Path(scratch), build)
+            problem = execute(notebook, Path(scratch), build, store)
             counts["run"] += 1
             if problem:
                 failures.append(f"{notebook.relative_to(ROOT)}\n    {problem}")
@@ -157,5 +158,5 @@ def main(arguments):
 
 if __name__ == "__main__":
     if len(sys.argv) < 2:
-        sys.exit("usage: tools/docs/check.py BUILD [--parse]")
+        sys.exit("usage: tools/docs/check.py BUILD [--parse|--store]")
     sys.exit(main(sys.argv[1:]))
