@@ -8,6 +8,8 @@ import tempfile
 from pathlib import Path
 from typing import Any, Iterator, Mapping, Union
 
+from .errors import EndoflowError
+
 #: A case: {"section": {"key": value}} or anything else the module's first line names.
 Case = Union[str, Path, Mapping[str, Any]]
 
@@ -22,7 +24,11 @@ def case_file(case: Case) -> Iterator[str]:
     with tempfile.TemporaryDirectory(prefix="endoflow-") as directory:
         file = Path(directory) / "case.toml"
         file.write_text(text, encoding="utf-8")
-        yield str(file)
+        try:
+            yield str(file)
+        except EndoflowError as error:  # the file is gone when somebody reads this
+            error.args = (str(error).replace(str(file), "the case"),)
+            raise
 
 
 def case_name(case: Case) -> str:

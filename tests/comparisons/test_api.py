@@ -65,7 +65,7 @@ class Commands(unittest.TestCase):
         self.assertEqual((run.parameters["case"]["name"], str(run.directory)), ("fickian", f"out/fickian/{ENGINE}"))
 
     def test_errors_have_the_programs_words(self):
-        with self.assertRaisesRegex(endoflow.InputError, "molecules.patch_radus.*patch_radius"):
+        with self.assertRaisesRegex(endoflow.InputError, "^the case:2:1: .*molecules.patch_radus.*patch_radius"):
             endoflow.run(ENGINE, {"molecules": {"patch_radus": 24}}, output="c")
         with self.assertRaisesRegex(endoflow.InputError, "did you mean 'fickian'"):
             endoflow.run(ENGINE, "fickain", output="c")

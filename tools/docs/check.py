@@ -75,6 +75,7 @@ def execute(notebook, scratch, build, store):
     started = time.monotonic()
     command = [python_of(build), str(Path(__file__).with_name("notebooks.py")), str(notebook), str(own), *(["--store"] if store else [])]
     variables = {**environment(build), "PYTHONPATH": str(ROOT / "python")}
+    del variables["MPLBACKEND"]  # a kernel draws into the notebook
     process = subprocess.run(command, env=variables, capture_output=True, text=True, check=False)
     print(f"{time.monotonic() - started:6.1f} s  {notebook.relative_to(ROOT)}", flush=True)
     return process.stderr[-3000:].strip() if process.returncode else ""
