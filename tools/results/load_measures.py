@@ -42,6 +42,20 @@ def engines_beside(sharp, diffuse, times):
     return rows
 
 
+def pulled(sharp, diffuse, times):
+    """Heights and speeds (nm/µs) of a tube that is pulled at times (µs), and the diffuse engine's relative differences."""
+    rows = []
+    for time in times:
+        heights, speeds = [], []
+        for run in (sharp, diffuse):
+            speed = np.gradient(run.history["bud_height_nm"], run.history["time_us"])
+            heights.append(at(run, "bud_height_nm", time))
+            speeds.append(float(np.interp(time, run.history["time_us"], speed)))
+        row = {"time_us": f"{time:g}", "height_sharp_nm": heights[0], "height": heights[1] / heights[0] - 1}
+        rows.append(row | {"speed_sharp_nm_per_us": speeds[0], "speed": speeds[1] / speeds[0] - 1})
+    return rows
+
+
 def beside_rest(run, rest):
     """A growing coat when it has the molecules of a stationary shape, beside this shape."""
     time = float(np.interp(rest.history["molecule_mass_nm2"][-1], run.history["molecule_mass_nm2"], run.history["time_us"]))

@@ -122,6 +122,42 @@ def pit():
     yield Study("pit", 10, runs, (Table("pit", columns, rows), Table("pit-events", events, of_events)))
 
 
+def loaded():
+    """A tube that is pulled, and the standard case under tension and pressure with a coat that grows, in both engines."""
+    engines = {"sharp": "boundary-integral", "diffuse": "phase-field"}
+    tube = (
+        "cases/tube.toml --set domain.height=200 --set domain.membrane_height=60 --set molecules.interface_width=6 "
+        "--set molecules.patch_radius=40 --set membrane.pole_force=60"
+    )
+    coat = (
+        "cases/standard.toml --set membrane.rim_tension=0.05 --set fluid.pressure_difference=1e-4 --set molecules.exchange=edge "
+        "--set molecules.edge_speed=50 --set molecules.pool_area=6000 --set output.stop_at_budding=true"
+    )
+    tubes = {name: f"endoflow run {engine} {tube} {QUIET} --until 3" for name, engine in engines.items()}
+    columns = (
+        Column("time_us", "time, µs"),
+        Column("height_sharp_nm", "height, sharp, nm", ".3f"),
+        Column("height", "difference", "+.2%"),
+        Column("speed_sharp_nm_per_us", "speed, sharp, nm/µs", ".2f"),
+        Column("speed", "difference", "+.2%"),
+    )
+
+    def rows(made):
+        return load_measures.pulled(made.run("sharp"), made.run("diffuse"), (0.01, 0.5, 1, 2.5))
+
+    def kept(made):
+        return [{"run": "diffuse"} | measures.kept(made.run("diffuse"))]
+
+    yield Study("pulled-tube", 20, tubes, (Table("pulled-tube", columns, rows), Table("pulled-tube-kept", (), kept)))
+
+    coats = {name: f"endoflow run {engine} {coat} {QUIET} --until 6" for name, engine in engines.items()}
+
+    def largest(made):
+        return [{"case": "loaded-coat"} | measures.largest_differences(made.run("sharp"), made.run("diffuse"))]
+
+    yield Study("loaded-coat", 10, coats, (Table("loaded-coat", (), largest),))
+
+
 def phase_diagram():
     """What becomes of ready-made coats under tension, over the coat's radius and the tension."""
     case = "cases/phase-diagram.toml"
