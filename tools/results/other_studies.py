@@ -7,11 +7,25 @@ from results import measures
 from results.study import QUIET, Study, Table
 from results.tables import Column
 
+ENGINES = ("boundary-integral", "phase-field")
+
+#: Other vesicles with the area of a sphere of 40 nm: semi-axes (nm), polar and equatorial, end (µs) and other settings.
+VESICLES = {
+    "prolate-0.9": (60.529, 30.848, 5, ""),
+    "prolate-0.95": (53.381, 33.749, 5, ""),
+    "oblate-0.6": (13.68, 52.98, 0.5, "--set phase_field.epsilon=1.7"),
+}
+
+
+def relaxing(engine, polar, equatorial, end, settings=""):
+    """The command of a spheroid that relaxes."""
+    axes = f"--set domain.spheroid_polar_axis={polar} --set domain.spheroid_equatorial_axis={equatorial}"
+    return f"endoflow run {engine} cases/closed_vesicle.toml {axes} {settings} --until {end} {QUIET}".replace("  ", " ")
+
 
 def vesicles():
-    """A closed prolate vesicle relaxes, in both engines."""
-    case = "cases/closed_vesicle.toml --set domain.spheroid_polar_axis=73.62 --set domain.spheroid_equatorial_axis=26.37 --until 5"
-    runs = {engine: f"endoflow run {engine} {case} {QUIET}" for engine in ("boundary-integral", "phase-field")}
+    """Closed vesicles relax, in both engines."""
+    runs = {engine: relaxing(engine, 73.62, 26.37, 5) for engine in ENGINES}
     columns = (
         Column("time_us", "t, µs"),
         Column("energy_sharp_pN_nm", "energy, sharp, pN nm", ".2f"),
@@ -21,7 +35,29 @@ def vesicles():
     def rows(made):
         return measures.relaxation(made.run("boundary-integral"), made.run("phase-field"), (0.01, 0.1, 0.5, 1, 5))
 
-    yield Study("vesicle", 4, runs, (Table("vesicle", columns, rows),))
+    def kept(made):
+        diffuse = made.run("phase-field")
+        area = diffuse.history["membrane_area_nm2"]
+        return [{"run": "diffuse"} | measures.cost(diffuse) | {"area": float(np.abs(area / area[0] - 1).max())}]
+
+    yield Study("vesicle", 4, runs, (Table("vesicle", columns, rows), Table("vesicle-kept", (), kept)))
+
+    others = {f"{engine}-{name}": relaxing(engine, *given) for name, given in VESICLES.items() for engine in ENGINES}
+    columns = (
+        Column("vesicle", "shape, reduced volume"),
+        Column("axes_nm", "semi-axes, nm"),
+        Column("time_us", "t, µs"),
+        *(Column(name, name, "+.3%") for name in ("energy", "height", "volume")),
+    )
+
+    def ends(made):
+        found = []
+        for name, (polar, equatorial, end, _) in VESICLES.items():
+            (row,) = measures.relaxation(*(made.run(f"{engine}-{name}") for engine in ENGINES), (end,))
+            found.append({"vesicle": name.replace("-", ", "), "axes_nm": f"{polar}, {equatorial}"} | row)
+        return found
+
+    yield Study("vesicle-shapes", 15, others, (Table("vesicle-shapes", columns, ends),))
 
 
 def smooth():
