@@ -61,7 +61,7 @@ MaterialRates MaterialStrain::rates(const Evaluation& e) const {
         const double square = p.g * p.g;
         rates.drift.push_back((radial.evaluate(v_r) * p.r1 + axial.evaluate(v_z) * p.z1) / square);
         const double meridional = (p.r1 * radial.evaluate(u_r, 1) + p.z1 * axial.evaluate(u_z, 1)) / square;
-        const double azimuthal = i == 0 ? radial.evaluate(u_r, 1) / p.r1 : radial.evaluate(u_r) / p.r;
+        const double azimuthal = p.on_axis() ? radial.evaluate(u_r, 1) / p.r1 : radial.evaluate(u_r) / p.r;
         rates.growth.push_back(meridional + azimuthal);
     }
     return rates;

@@ -64,7 +64,7 @@ CurvePoint curve_point(const BasisRow& radial, const BasisRow& axial, const Memb
     p.normal_r = -p.z1 / p.g;
     p.normal_z = p.r1 / p.g;
     p.meridional_curvature = -(p.r1 * p.z2 - p.z1 * p.r2) / (p.g * p.g * p.g);
-    p.azimuthal_curvature = p.r > 1e-12 * p.g ? -p.z1 / (p.r * p.g) : p.meridional_curvature;
+    p.azimuthal_curvature = p.on_axis() ? p.meridional_curvature : -p.z1 / (p.r * p.g);
     return p;
 }
 

@@ -72,6 +72,8 @@ struct CurvePoint {
     double meridional_curvature;  // -(r' z'' - z' r'')/g³
     double azimuthal_curvature;   // -z'/(r g), its limit on the axis
     double total_curvature() const { return meridional_curvature + azimuthal_curvature; }
+    /// But for round-off.
+    bool on_axis() const { return r <= 1e-12 * g; }
 };
 
 [[nodiscard]] CurvePoint curve_point(const BasisRow& radial, const BasisRow& axial, const MembraneState& state);

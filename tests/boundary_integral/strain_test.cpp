@@ -6,6 +6,7 @@
 
 #include "boundary_integral/evolution/material_strain.h"
 #include "boundary_integral/integration/stiff_integrator.h"
+#include "curves.h"
 
 namespace {
 
@@ -63,6 +64,18 @@ TEST_CASE("markers go with the material and add up its growth", "[strain]") {
     strain.advance(before, before, 1.0);
     CHECK(strain.markers().xi.size() == 1);
     CHECK(strain.largest() == 0);
+}
+
+TEST_CASE("a sphere that swells grows by twice its rate, at both poles, too", "[strain]") {
+    const MembraneSpace space(16, 8, CurveEnd::closed);
+    Evaluation e{};
+    e.state.r = testing::spline_of(space.radial(), [](double xi) { return 40 * std::sin(M_PI * xi); });
+    e.state.z = testing::spline_of(space.axial(), [](double xi) { return 40 * std::cos(M_PI * xi); });
+    e.flow.velocity.resize(space.curve_count());
+    e.flow.velocity << e.state.r, e.state.z;  // a velocity of x/µs
+    e.mesh_velocity = Eigen::VectorXd::Zero(space.curve_count());
+    // exact for any spline: the velocity is the position
+    for (const double growth : MaterialStrain(space).rates(e).growth) CHECK(growth == Approx(2).epsilon(1e-9));
 }
 
 TEST_CASE("the stretching of an extensible membrane is that of its area", "[strain]") {
