@@ -1,4 +1,4 @@
-"""In a Jupyter kernel: the progress bar, a cancelled cell, errors; and that the stored notebooks are clean and their code compiles.
+"""In a Jupyter kernel: the progress bar, a cancelled cell, errors; and that the notebooks are stored with what their cells show.
 
     ENDOFLOW_PROGRAM=build/endoflow python3 tests/comparisons/test_notebook.py
 

@@ -5,6 +5,7 @@ Exit code 1 when a cell raises, with its traceback, and when a cell prints other
 the notebook is written anew instead, with what its cells show.
 """
 
+import copy
 import json
 import os
 import re
@@ -26,18 +27,10 @@ def printed(cell):
     return re.sub(r"-?\d[\d.e+-]*", "#", text)
 
 
-def cleaned(book, stored):
-    """What is kept of an executed notebook: its cells' outputs; the kernel is whichever the reader has."""
-    book.metadata = stored.metadata
-    for cell in book.cells:
-        cell.metadata.pop("execution", None)
-    return book
-
-
 def main(notebook, directory, store=False):
     """Execute it; returns the exit code."""
     stored = nbformat.read(notebook, 4)
-    book = nbformat.read(notebook, 4)
+    book = copy.deepcopy(stored)
     with tempfile.TemporaryDirectory() as kernels:
         # A kernel of this Python, whichever kernels the machine has.
         own = Path(kernels) / "here"
@@ -53,7 +46,8 @@ def main(notebook, directory, store=False):
             print(error, file=sys.stderr)
             return 1
     if store:
-        nbformat.write(cleaned(book, stored), notebook)
+        book.metadata = stored.metadata  # the kernel is whichever the reader has
+        nbformat.write(book, notebook)
         return 0
     other = [cell.id for cell, before in zip(book.cells, stored.cells) if printed(cell) != printed(before)]
     if other:

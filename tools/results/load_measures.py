@@ -44,13 +44,12 @@ def engines_beside(sharp, diffuse, times):
 
 def pulled(sharp, diffuse, times):
     """Heights and speeds (nm/µs) of a tube that is pulled at times (µs), and the diffuse engine's relative differences."""
+    runs = (sharp, diffuse)
+    courses = [(h["time_us"], np.gradient(h["bud_height_nm"], h["time_us"])) for h in (run.history for run in runs)]
     rows = []
     for time in times:
-        heights, speeds = [], []
-        for run in (sharp, diffuse):
-            speed = np.gradient(run.history["bud_height_nm"], run.history["time_us"])
-            heights.append(at(run, "bud_height_nm", time))
-            speeds.append(float(np.interp(time, run.history["time_us"], speed)))
+        heights = [at(run, "bud_height_nm", time) for run in runs]
+        speeds = [float(np.interp(time, *course)) for course in courses]
         row = {"time_us": f"{time:g}", "height_sharp_nm": heights[0], "height": heights[1] / heights[0] - 1}
         rows.append(row | {"speed_sharp_nm_per_us": speeds[0], "speed": speeds[1] / speeds[0] - 1})
     return rows

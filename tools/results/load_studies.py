@@ -2,7 +2,7 @@
 
 from results import load_measures, measures
 from results.places import ROOT
-from results.study import QUIET, Study, Table, of_each
+from results.study import ENGINES, QUIET, Study, Table, of_each
 from results.tables import Column, numbers
 
 GROWING = f"endoflow run boundary-integral cases/growing-coat.toml {QUIET}"
@@ -98,7 +98,7 @@ FOLLOWED = {"half": "0.5", "one": "1", "two": "2"}
 
 def pit():
     """A coat that grows and matures under tension, pulled by actin on a ring, with a collar, in both engines."""
-    runs = {engine: f"endoflow run {engine} cases/pit.toml" for engine in ("boundary-integral", "phase-field")}
+    runs = {engine: f"endoflow run {engine} cases/pit.toml" for engine in ENGINES}
     columns = (
         Column("time_us", "t, µs"),
         Column("height_sharp_nm", "height, sharp, nm", ".3f"),
@@ -124,7 +124,6 @@ def pit():
 
 def loaded():
     """A tube that is pulled, and the standard case under tension and pressure with a coat that grows, in both engines."""
-    engines = {"sharp": "boundary-integral", "diffuse": "phase-field"}
     tube = (
         "cases/tube.toml --set domain.height=200 --set domain.membrane_height=60 --set molecules.interface_width=6 "
         "--set molecules.patch_radius=40 --set membrane.pole_force=60"
@@ -133,7 +132,7 @@ def loaded():
         "cases/standard.toml --set membrane.rim_tension=0.05 --set fluid.pressure_difference=1e-4 --set molecules.exchange=edge "
         "--set molecules.edge_speed=50 --set molecules.pool_area=6000 --set output.stop_at_budding=true"
     )
-    tubes = {name: f"endoflow run {engine} {tube} {QUIET} --until 3" for name, engine in engines.items()}
+    tubes = {engine: f"endoflow run {engine} {tube} {QUIET} --until 3" for engine in ENGINES}
     columns = (
         Column("time_us", "time, µs"),
         Column("height_sharp_nm", "height, sharp, nm", ".3f"),
@@ -143,17 +142,17 @@ def loaded():
     )
 
     def rows(made):
-        return load_measures.pulled(made.run("sharp"), made.run("diffuse"), (0.01, 0.5, 1, 2.5))
+        return load_measures.pulled(*map(made.run, ENGINES), (0.01, 0.5, 1, 2.5))
 
     def kept(made):
-        return [{"run": "diffuse"} | measures.kept(made.run("diffuse"))]
+        return [{"run": "diffuse"} | measures.kept(made.run("phase-field"))]
 
     yield Study("pulled-tube", 20, tubes, (Table("pulled-tube", columns, rows), Table("pulled-tube-kept", (), kept)))
 
-    coats = {name: f"endoflow run {engine} {coat} {QUIET} --until 6" for name, engine in engines.items()}
+    coats = {engine: f"endoflow run {engine} {coat} {QUIET} --until 6" for engine in ENGINES}
 
     def largest(made):
-        return [{"case": "loaded-coat"} | measures.largest_differences(made.run("sharp"), made.run("diffuse"))]
+        return [{"case": "loaded-coat"} | measures.largest_differences(*map(made.run, ENGINES))]
 
     yield Study("loaded-coat", 10, coats, (Table("loaded-coat", (), largest),))
 

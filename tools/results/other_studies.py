@@ -4,23 +4,21 @@ import numpy as np
 
 from endoflow.curves import local_cubic
 from results import measures
-from results.study import QUIET, Study, Table
+from results.study import ENGINES, QUIET, Study, Table
 from results.tables import Column
-
-ENGINES = ("boundary-integral", "phase-field")
 
 #: Other vesicles with the area of a sphere of 40 nm: semi-axes (nm), polar and equatorial, end (µs) and other settings.
 VESICLES = {
-    "prolate-0.9": (60.529, 30.848, 5, ""),
-    "prolate-0.95": (53.381, 33.749, 5, ""),
+    "prolate-0.9": (60.529, 30.848, 5),
+    "prolate-0.95": (53.381, 33.749, 5),
     "oblate-0.6": (13.68, 52.98, 0.5, "--set phase_field.epsilon=1.7"),
 }
 
 
-def relaxing(engine, polar, equatorial, end, settings=""):
+def relaxing(engine, polar, equatorial, end, *settings):
     """The command of a spheroid that relaxes."""
     axes = f"--set domain.spheroid_polar_axis={polar} --set domain.spheroid_equatorial_axis={equatorial}"
-    return f"endoflow run {engine} cases/closed_vesicle.toml {axes} {settings} --until {end} {QUIET}".replace("  ", " ")
+    return " ".join((f"endoflow run {engine} cases/closed_vesicle.toml", axes, *settings, f"--until {end} {QUIET}"))
 
 
 def vesicles():
@@ -33,7 +31,7 @@ def vesicles():
     )
 
     def rows(made):
-        return measures.relaxation(made.run("boundary-integral"), made.run("phase-field"), (0.01, 0.1, 0.5, 1, 5))
+        return measures.relaxation(*map(made.run, ENGINES), (0.01, 0.1, 0.5, 1, 5))
 
     def kept(made):
         diffuse = made.run("phase-field")
@@ -52,7 +50,7 @@ def vesicles():
 
     def ends(made):
         found = []
-        for name, (polar, equatorial, end, _) in VESICLES.items():
+        for name, (polar, equatorial, end, *_) in VESICLES.items():
             (row,) = measures.relaxation(*(made.run(f"{engine}-{name}") for engine in ENGINES), (end,))
             found.append({"vesicle": name.replace("-", ", "), "axes_nm": f"{polar}, {equatorial}"} | row)
         return found

@@ -34,6 +34,7 @@ def of_each(key, measure, labels):
 
 
 QUIET = "--set output.field_interval=0"
+ENGINES = ("boundary-integral", "phase-field")
 SHARP = f"endoflow run boundary-integral cases/standard.toml {QUIET}"
 DIFFUSE = f"endoflow run phase-field cases/standard.toml {QUIET}"
 TO_BUDDING = "--set output.stop_at_budding=true"
