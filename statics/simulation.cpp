@@ -26,13 +26,13 @@ namespace {
 std::vector<std::string> continuable(const Parameters& parameters) {
     std::vector<std::string> keys{"membrane.spontaneous_curvature", "membrane.bending_stiffness",
                                   "membrane.bending_stiffness_coated"};
-    const std::vector<std::string> more =
-        is_vesicle(parameters)
-            ? std::vector<std::string>{"domain.spheroid_polar_axis", "domain.spheroid_equatorial_axis"}
-            : std::vector<std::string>{"molecules.patch_radius", "molecules.interface_width", "domain.radius",
-                                       "membrane.rim_tension"};
-    keys.insert(keys.end(), more.begin(), more.end());
-    if (!is_vesicle(parameters)) keys.insert(keys.end(), load_keys.begin(), load_keys.end());
+    if (is_vesicle(parameters)) {
+        keys.insert(keys.end(), {"domain.spheroid_polar_axis", "domain.spheroid_equatorial_axis"});
+    } else {
+        keys.insert(keys.end(), {"molecules.patch_radius", "molecules.interface_width", "domain.radius",
+                                 "membrane.rim_tension"});
+        keys.insert(keys.end(), load_keys.begin(), load_keys.end());
+    }
     if (energetically_coupled(parameters.molecules)) keys.emplace_back("molecules.line_energy");
     return keys;
 }

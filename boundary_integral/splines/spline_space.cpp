@@ -143,10 +143,7 @@ std::array<double, 6> SplineSpace::taylor(const Eigen::VectorXd& coefficients, d
     const Piece& piece = pieces_[at(element)];
     std::array<double, 6> polynomial{};
     for (std::size_t k = 0; k < 6; ++k) {
-        for (std::size_t j = 0; j < 6; ++j) {
-            const double by = piece.coefficient[k][j];
-            if (by != 0.0) polynomial[k] += by * coefficients[piece.index[j]];
-        }
+        for (std::size_t j = 0; j < 6; ++j) polynomial[k] += piece.coefficient[k][j] * coefficients[piece.index[j]];
     }
     // Horner's scheme again and again shifts the polynomial to ξ.
     const double x = xi - piece.origin;
