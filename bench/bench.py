@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """`make bench`: what the engines cost on this machine, as out/bench/bench.json and bench.md.
 
-    bench/bench.py BUILD [-o DIR] [--quick] [--repeats N] [--only NAME,…]
+    bench/bench.py BUILD [-o DIR] [--quick] [--repeats N] [--only NAME,…] [--scaling N,…]
 
 Every figure is the median of the repeats, each of them a run of the installed command; ratios are taken inside one
 repeat. CPU time is what to compare on a machine that does other things too. Exit code 0, 2 (command line) or 3 (a run
@@ -31,9 +31,16 @@ def parsed(arguments):
         metavar="NAME,…",
         help=f"some of {', '.join(measurements.ALL)}",
         type=lambda text: text.split(","),
-        default=list(measurements.ALL),
+    )
+    parser.add_argument(
+        "--scaling",
+        metavar="N,…",
+        help="the phase field on these numbers of processes (default: 1,2); alone, where --only names no others",
+        type=lambda text: tuple(int(number) for number in text.split(",")),
     )
     options = parser.parse_args(arguments)
+    options.only = options.only or (["scaling"] if options.scaling else list(measurements.ALL))
+    options.scaling = options.scaling or measurements.Bench.scaling
     unknown = [name for name in options.only if name not in measurements.ALL]
     if unknown:
         parser.error(f"--only: no measurement is called {unknown[0]!r}; there are {', '.join(measurements.ALL)}")
@@ -46,7 +53,7 @@ def parsed(arguments):
 def main(arguments):
     """Measure, print and write; returns the exit code."""
     options = parsed(arguments)
-    bench = measurements.Bench(options.build.resolve(), options.output.resolve(), options.quick, options.repeats)
+    bench = measurements.Bench(options.build.resolve(), options.output.resolve(), options.quick, options.repeats, options.scaling)
     found = {"machine": machine.describe(), "quick": options.quick, "repeats": options.repeats, "figures": {}}
     if found["machine"]["load_at_start"] > 0.3:
         print("note: the machine is not idle; compare CPU times and ratios, not wall times", file=sys.stderr)

@@ -35,12 +35,14 @@ class Bench:
     output: Path
     quick: bool
     repeats: int
+    scaling: tuple = (1, 2)  # numbers of processes
 
-    def command(self, *arguments):
+    def command(self, *arguments, processes=1):
         """Run `endoflow …` to its end; returns its wall time in s. Raises RunFailed."""
         begin = time.monotonic()
+        launcher = ["mpirun", "-n", str(processes)] if processes > 1 else []
         process = subprocess.run(
-            [str(self.build / "endoflow"), *map(str, arguments)],
+            [*launcher, str(self.build / "endoflow"), *map(str, arguments)],
             capture_output=True,
             text=True,
             check=False,
@@ -55,12 +57,12 @@ class Bench:
         """Where a run lies."""
         return self.output / "runs" / name
 
-    def run(self, engine, name, *settings):
+    def run(self, engine, name, *settings, processes=1):
         """One run of the standard case; returns run.json."""
         directory = self.directory(name)
         shutil.rmtree(directory, ignore_errors=True)
         options = [option for setting in settings for option in ("--set", setting)]
-        self.command("run", engine, STANDARD_CASE, "-o", directory, *options)
+        self.command("run", engine, STANDARD_CASE, "-o", directory, *options, processes=processes)
         return json.loads((directory / "run.json").read_text(encoding="utf-8"))
 
     def repeated(self, engine, name, *settings):
@@ -163,6 +165,32 @@ def phase_field_schemes(bench):
     }
 
 
+def scaling(bench):
+    """The standard case by the phase-field engine to 0.02 µs on each of the numbers of processes, which are taken in turn
+    in every repeat; --quick: to 0.1 ns."""
+    if not (bench.build / "endoflow-phase-field").exists():
+        return {"skipped": "endoflow was built without the phase-field engine (ENDOFLOW_PHASEFIELD=OFF)"}
+    end = 1e-4 if bench.quick else 0.02
+    records = {count: [] for count in bench.scaling}
+    for _ in range(bench.repeats):
+        for count, of_count in records.items():
+            settings = f"time.end={end}", NO_FIELDS
+            of_count.append(bench.run("phase-field", f"scaling_{count}", *settings, processes=count))
+    first = records[bench.scaling[0]]
+    return {
+        "until_us": end,
+        "on": [
+            {
+                "processes": count,
+                "wall_s": median(record["wall_s"] for record in of_count),
+                "times_as_fast": median(one["wall_s"] / record["wall_s"] for one, record in zip(first, of_count)),
+                "solver": of_count[-1]["notes"]["solver"],
+            }
+            for count, of_count in records.items()
+        ],
+    }
+
+
 def cpu_per_wall(record):
     """CPU time per wall time of a run."""
     return record["cpu_s"] / record["wall_s"]
@@ -199,4 +227,5 @@ ALL = {
     "to_the_end": to_the_end,
     "patch_sweep": patch_sweep,
     "phase_field_schemes": phase_field_schemes,
+    "scaling": scaling,
 }

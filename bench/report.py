@@ -61,12 +61,29 @@ def phase_field_schemes(figure):
     ]
 
 
+def scaling(figure):
+    """A row for each number of processes."""
+    rows = []
+    for on in figure["on"]:
+        counts = [on["solver"][name] for name in ("unknowns_between_processes", "iterations", "factorisations")]
+        cells = [str(on["processes"]), f"{on['wall_s']:.1f}", f"{on['times_as_fast']:.2f}", *map("{:g}".format, counts)]
+        rows.append(f"| {' | '.join(cells)} |")
+    return [
+        f"Standard case to {figure['until_us']:g} µs.",
+        "",
+        "| processes | wall, s | times as fast | unknowns that parts share | iterations | factorisations |",
+        "| --- | --- | --- | --- | --- | --- |",
+        *rows,
+    ]
+
+
 WRITERS = {
     "kernels": kernels,
     "to_budding": run,
     "to_the_end": run,
     "patch_sweep": patch_sweep,
     "phase_field_schemes": phase_field_schemes,
+    "scaling": scaling,
 }
 
 

@@ -29,8 +29,8 @@ std::vector<std::string> continuable(const Parameters& parameters) {
     if (is_vesicle(parameters)) {
         keys.insert(keys.end(), {"domain.spheroid_polar_axis", "domain.spheroid_equatorial_axis"});
     } else {
-        keys.insert(keys.end(), {"molecules.patch_radius", "molecules.interface_width", "domain.radius",
-                                 "membrane.rim_tension"});
+        keys.insert(keys.end(),
+                    {"molecules.patch_radius", "molecules.interface_width", "domain.radius", "membrane.rim_tension"});
         keys.insert(keys.end(), load_keys.begin(), load_keys.end());
     }
     if (energetically_coupled(parameters.molecules)) keys.emplace_back("molecules.line_energy");

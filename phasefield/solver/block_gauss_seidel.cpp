@@ -9,10 +9,10 @@ BlockGaussSeidel::BlockGaussSeidel(MPI_Comm communicator, const std::string& nam
     for (const auto& components : blocks) blocks_.emplace_back(communicator, name, components);
 }
 
-void BlockGaussSeidel::reinit(const Space& space) {
+void BlockGaussSeidel::reinit(const Space& space, const std::vector<unsigned int>& process) {
     std::vector<unsigned int> earlier;
     for (Block& block : blocks_) {
-        block.system.reinit(space);
+        block.system.reinit(space, process);
         block.earlier = earlier;
         block.coupling.clear();
         const auto& in_cell = block.system.in_cell();
@@ -26,18 +26,10 @@ void BlockGaussSeidel::reinit(const Space& space) {
     residuals_.assign(blocks_.front().system.own_cells(), dealii::Vector<double>(space.element.n_dofs_per_cell()));
 }
 
-void BlockGaussSeidel::start() {
-    for (Block& block : blocks_) block.system.start();
-}
-
-void BlockGaussSeidel::start_right_hand_side() {
-    blocks_.front().system.start_right_hand_side();
-}
-
-void BlockGaussSeidel::add(const Cell& cell, const dealii::FullMatrix<double>& matrix,
+void BlockGaussSeidel::set(const Cell& cell, const dealii::FullMatrix<double>& matrix,
                            const dealii::Vector<double>& right_hand_side) {
     for (Block& block : blocks_) {
-        block.system.add(cell, matrix);
+        block.system.set(cell, matrix);
         if (block.earlier.empty()) continue;
         auto& A = block.coupling[position(cell)];
         const auto& in_cell = block.system.in_cell();
@@ -45,11 +37,11 @@ void BlockGaussSeidel::add(const Cell& cell, const dealii::FullMatrix<double>& m
             for (unsigned int k = 0; k < block.earlier.size(); ++k)
                 A(i, k) = static_cast<float>(matrix(in_cell[i], block.earlier[k]));
     }
-    add(cell, right_hand_side);
+    set(cell, right_hand_side);
 }
 
-void BlockGaussSeidel::add(const Cell& cell, const dealii::Vector<double>& right_hand_side) {
-    blocks_.front().system.add(cell, right_hand_side);
+void BlockGaussSeidel::set(const Cell& cell, const dealii::Vector<double>& right_hand_side) {
+    blocks_.front().system.set(cell, right_hand_side);
     residuals_[position(cell)] = right_hand_side;
 }
 
@@ -77,7 +69,6 @@ void BlockGaussSeidel::hand_over(const Space& space, const Vector& solution, Blo
     dealii::Vector<double> of_cell(space.element.n_dofs_per_cell());
     dealii::Vector<float> before(static_cast<unsigned int>(block.earlier.size())),
         part(static_cast<unsigned int>(in_cell.size()));
-    block.system.start_right_hand_side();
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         const std::size_t own = position(cell);
@@ -85,7 +76,7 @@ void BlockGaussSeidel::hand_over(const Space& space, const Vector& solution, Blo
         for (unsigned int k = 0; k < before.size(); ++k) before(k) = static_cast<float>(of_cell(block.earlier[k]));
         block.coupling[own].vmult(part, before);
         for (unsigned int i = 0; i < part.size(); ++i) residuals_[own](in_cell[i]) -= part(i);
-        block.system.add(cell, residuals_[own]);
+        block.system.set(cell, residuals_[own]);
     }
 }
 

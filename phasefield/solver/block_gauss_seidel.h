@@ -23,16 +23,12 @@ class BlockGaussSeidel {
     BlockGaussSeidel(MPI_Comm communicator, const std::string& name,
                      const std::vector<std::vector<unsigned int>>& blocks);
 
-    /// Allocates for the present mesh.
-    void reinit(const Space& space);
-    /// Zero matrix and right-hand side: add() all own cells, then solve().
-    void start();
-    /// Zero right-hand side alone: add() all own cells, then apply_factors().
-    void start_right_hand_side();
-    /// A cell's n × n matrix and n right-hand sides, in its own numbering.
-    void add(const Cell& cell, const dealii::FullMatrix<double>& matrix, const dealii::Vector<double>& right_hand_side);
-    /// The right-hand side alone.
-    void add(const Cell& cell, const dealii::Vector<double>& right_hand_side);
+    /// As of CondensedSystem.
+    void reinit(const Space& space, const std::vector<unsigned int>& process);
+    /// A cell's n × n matrix and n right-hand sides, in its own numbering. Set those of all own cells, then solve().
+    void set(const Cell& cell, const dealii::FullMatrix<double>& matrix, const dealii::Vector<double>& right_hand_side);
+    /// The right-hand sides alone. Set those of all own cells, then apply_factors().
+    void set(const Cell& cell, const dealii::Vector<double>& right_hand_side);
 
     /// As of CondensedSystem.
     void use(Precision precision);

@@ -30,7 +30,7 @@ dealii::FESystem<2> face_element(const Space& space, const std::vector<unsigned 
 CondensedSystem::CondensedSystem(MPI_Comm communicator, std::string name, std::vector<unsigned int> components)
     : name_(std::move(name)), components_(std::move(components)), system_(communicator, name_) {}
 
-void CondensedSystem::reinit(const Space& space) {
+void CondensedSystem::reinit(const Space& space, const std::vector<unsigned int>& process) {
     const auto& mesh = space.dofs.get_triangulation();
     const auto element = face_element(space, components_);
     dealii::DoFHandler<2> dofs(mesh);
@@ -49,7 +49,7 @@ void CondensedSystem::reinit(const Space& space) {
     cells_.clear();
     positions_.assign(mesh.n_active_cells(), 0);
     std::vector<SubdomainSystem::Index> all(space.element.n_dofs_per_cell()), indices(in_cell_.size()), outer(n_outer_);
-    std::vector<std::vector<SubdomainSystem::Index>> outer_unknowns;
+    std::vector<std::vector<SubdomainSystem::Index>> outer_unknowns, free_unknowns;
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (cell->is_artificial()) continue;
         cell->get_dof_indices(all);
@@ -68,19 +68,34 @@ void CondensedSystem::reinit(const Space& space) {
         outer_unknowns.push_back(outer);
     }
     constraints.close();
-    system_.reinit(outer_unknowns, dofs.locally_owned_dofs(), relevant, constraints);
+    for (std::size_t k = 0; k < cells_.size(); ++k)
+        free_unknowns.push_back(express_by_free(outer_unknowns[k], constraints, cells_[k].parts));
+    system_.reinit(free_unknowns, process, dofs.locally_owned_dofs());
 
     inner_rows_.reinit(n_inner_, n_outer_ + n_inner_);
     A_oi_.reinit(n_outer_, n_inner_);
     S_.reinit(n_outer_, n_outer_);
-    outer_matrix_.reinit(n_outer_, n_outer_);
     outer_residual_.reinit(n_outer_);
+    outer_solution_.reinit(n_outer_);
     inner_solution_.reinit(n_inner_);
 }
 
-void CondensedSystem::start() {
-    system_.start();
-    undetermined_ = false;
+std::vector<SubdomainSystem::Index> CondensedSystem::express_by_free(
+    const std::vector<SubdomainSystem::Index>& unknowns, const dealii::AffineConstraints<double>& constraints,
+    std::vector<Part>& parts) {
+    std::vector<SubdomainSystem::Index> out;
+    const auto add = [&](unsigned int outer, SubdomainSystem::Index free, double weight) {
+        const auto known = std::find(out.begin(), out.end(), free);
+        parts.push_back({outer, static_cast<unsigned int>(known - out.begin()), weight});
+        if (known == out.end()) out.push_back(free);
+    };
+    for (unsigned int i = 0; i < unknowns.size(); ++i) {
+        if (!constraints.is_constrained(unknowns[i]))
+            add(i, unknowns[i], 1);
+        else
+            for (const auto& [free, weight] : *constraints.get_constraint_entries(unknowns[i])) add(i, free, weight);
+    }
+    return out;
 }
 
 void CondensedSystem::eliminate(const dealii::FullMatrix<double>& matrix, Elimination& cell) {
@@ -98,11 +113,12 @@ void CondensedSystem::eliminate(const dealii::FullMatrix<double>& matrix, Elimin
         for (unsigned int k = 0; k < n; ++k) inner_rows_(i, m + k) = i == k ? scale : 0;
         for (unsigned int k = 0; k < m; ++k) A_oi_(k, i) = A(k, m + i);
     }
+    cell.undetermined = false;
     try {
         A_ii.compute_lu_factorization();
         A_ii.solve(inner_rows_);
     } catch (const dealii::LACExceptions::ExcSingular&) {
-        undetermined_ = true;
+        cell.undetermined = true;
         inner_rows_ = 0;
     }
     cell.to_inner.reinit(n, m);
@@ -117,8 +133,6 @@ void CondensedSystem::eliminate(const dealii::FullMatrix<double>& matrix, Elimin
     for (unsigned int i = 0; i < m; ++i)
         for (unsigned int k = 0; k < m; ++k) S_(i, k) = A(i, k);
     A_oi_.mmult(S_, cell.to_inner, true);
-    for (unsigned int i = 0; i < m; ++i)
-        for (unsigned int k = 0; k < m; ++k) outer_matrix_(i, k) = S_(i, k);
 }
 
 void CondensedSystem::condense(const dealii::Vector<double>& right_hand_side, Elimination& cell) {
@@ -128,20 +142,30 @@ void CondensedSystem::condense(const dealii::Vector<double>& right_hand_side, El
     cell.from_inner.vmult_add(outer_residual_, cell.residual);
 }
 
-void CondensedSystem::add(const Cell& cell, const dealii::FullMatrix<double>& matrix) {
+void CondensedSystem::set(const Cell& cell, const dealii::FullMatrix<double>& matrix) {
     const std::size_t own = position(cell);
-    eliminate(matrix, cells_[own]);
-    system_.add(own, outer_matrix_);
+    Elimination& kept = cells_[own];
+    eliminate(matrix, kept);
+    free_matrix_.reinit(system_.unknowns(own), system_.unknowns(own));
+    for (const Part& row : kept.parts)
+        for (const Part& column : kept.parts)
+            free_matrix_(row.free, column.free) += row.weight * S_(row.outer, column.outer) * column.weight;
+    system_.set(own, free_matrix_);
 }
 
-void CondensedSystem::add(const Cell& cell, const dealii::Vector<double>& right_hand_side) {
+void CondensedSystem::set(const Cell& cell, const dealii::Vector<double>& right_hand_side) {
     const std::size_t own = position(cell);
-    condense(right_hand_side, cells_[own]);
-    system_.add(own, outer_residual_);
+    Elimination& kept = cells_[own];
+    condense(right_hand_side, kept);
+    free_residual_.reinit(system_.unknowns(own));
+    for (const Part& part : kept.parts) free_residual_(part.free) += part.weight * outer_residual_(part.outer);
+    system_.set(own, free_residual_);
 }
 
 void CondensedSystem::solve(const Space& space, Vector& solution) {
-    if (dealii::Utilities::MPI::max(undetermined_ ? 1 : 0, space.dofs.get_communicator()) == 1)
+    const bool undetermined =
+        std::any_of(cells_.begin(), cells_.end(), [](const Elimination& cell) { return cell.undetermined; });
+    if (dealii::Utilities::MPI::max(undetermined ? 1 : 0, space.dofs.get_communicator()) == 1)
         throw SolverError("linear-solver", "the unknowns inside of a cell of the " + name_ + " system are undetermined",
                           "use a smaller time.max_step or phase_field.cell_size");
     system_.solve();
@@ -157,11 +181,13 @@ void CondensedSystem::expand(const Space& space, Vector& solution) {
     solution.zero_out_ghost_values();
     for (std::size_t position = 0; position < cells_.size(); ++position) {
         const Elimination& cell = cells_[position];
-        system_.values(position, outer_residual_);
+        outer_solution_ = 0;
+        for (const Part& part : cell.parts)
+            outer_solution_(part.outer) += part.weight * system_.values(position)[part.free];
         cell.inverse.vmult(inner_solution_, cell.residual);
-        cell.to_inner.vmult_add(inner_solution_, outer_residual_);
+        cell.to_inner.vmult_add(inner_solution_, outer_solution_);
         for (unsigned int i = 0; i < n_outer_; ++i)
-            if (space.owned.is_element(cell.unknowns[i])) solution(cell.unknowns[i]) = outer_residual_(i);
+            if (space.owned.is_element(cell.unknowns[i])) solution(cell.unknowns[i]) = outer_solution_(i);
         for (unsigned int i = 0; i < n_inner_; ++i) solution(cell.unknowns[n_outer_ + i]) = inner_solution_(i);
     }
     solution.update_ghost_values();

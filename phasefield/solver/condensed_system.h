@@ -23,17 +23,14 @@ class CondensedSystem {
     /// `components` ascend.
     CondensedSystem(MPI_Comm communicator, std::string name, std::vector<unsigned int> components);
 
-    /// Allocates for the present mesh.
-    void reinit(const Space& space);
-    /// Zero matrix and right-hand side: add() all own cells, then solve().
-    void start();
-    /// Zero right-hand side alone: add() all own cells, then apply_factors().
-    void start_right_hand_side() { system_.start_right_hand_side(); }
+    /// Allocates for the present mesh; `process`: the one that eliminates what an own cell has on its vertices and
+    /// faces.
+    void reinit(const Space& space, const std::vector<unsigned int>& process);
     /// A cell's n × n matrix, of the whole space and in the cell's numbering; read are the components' rows and
-    /// columns.
-    void add(const Cell& cell, const dealii::FullMatrix<double>& matrix);
-    /// A cell's n right-hand sides. After its matrix.
-    void add(const Cell& cell, const dealii::Vector<double>& right_hand_side);
+    /// columns. Set those of all own cells, then solve().
+    void set(const Cell& cell, const dealii::FullMatrix<double>& matrix);
+    /// A cell's n right-hand sides. After its matrix. Set those of all own cells, then solve() or apply_factors().
+    void set(const Cell& cell, const dealii::Vector<double>& right_hand_side);
 
     /// As of SubdomainSystem, with its errors, also when the block of a cell's inner unknowns is singular; the
     /// components of `solution` are set and all its ghost values updated.
@@ -55,14 +52,25 @@ class CondensedSystem {
   private:
     using Dense = dealii::LAPACKFullMatrix<double>;
 
+    /// An outer unknown is a sum over free ones, the system's: itself, or where it hangs those it hangs on.
+    struct Part {
+        unsigned int outer, free;
+        double weight;
+    };
     /// What is kept of a cell.
     struct Elimination {
         std::vector<SubdomainSystem::Index> unknowns;  // in the space
         std::vector<unsigned int> fixed;               // of the inner ones, by constraints
+        std::vector<Part> parts;                       // of the outer ones
+        bool undetermined = false;                     // the inner ones
         Dense inverse, to_inner, from_inner;           // A_ii⁻¹, −A_ii⁻¹ A_io, −A_oi A_ii⁻¹
         dealii::Vector<double> residual;               // r_i
     };
 
+    /// The free unknowns behind a cell's outer ones.
+    static std::vector<SubdomainSystem::Index> express_by_free(const std::vector<SubdomainSystem::Index>& unknowns,
+                                                               const dealii::AffineConstraints<double>& constraints,
+                                                               std::vector<Part>& parts);
     void eliminate(const dealii::FullMatrix<double>& matrix, Elimination& cell);
     void condense(const dealii::Vector<double>& right_hand_side, Elimination& cell);
     void expand(const Space& space, Vector& solution);
@@ -74,10 +82,9 @@ class CondensedSystem {
     unsigned int n_outer_ = 0, n_inner_ = 0;  // the outer ones come first
     std::vector<Elimination> cells_;          // own ones
     std::vector<std::size_t> positions_;      // in cells_, by the active cell's index
-    bool undetermined_ = false;               // inner unknowns of an own cell
     Dense inner_rows_, A_oi_, S_;
-    dealii::FullMatrix<double> outer_matrix_;
-    dealii::Vector<double> outer_residual_, inner_solution_;
+    dealii::FullMatrix<double> free_matrix_;
+    dealii::Vector<double> outer_residual_, free_residual_, outer_solution_, inner_solution_;
 };
 
 }  // namespace endoflow::phasefield

@@ -57,28 +57,29 @@ class FactorsOf final : public MumpsFactors {
   public:
     using Real = std::remove_pointer_t<decltype(Data::a)>;
 
-    FactorsOf(const dealii::SparsityPattern& pattern, unsigned int kept);
+    FactorsOf(const CellMatrices& cells, unsigned int kept);
 
-    bool factorise(const dealii::SparseMatrix<double>& matrix, dealii::FullMatrix<double>& left) override;
+    bool factorise(const std::vector<double>& entries, dealii::FullMatrix<double>& left) override;
     bool reduce(const dealii::Vector<double>& right_hand_side, dealii::Vector<double>& reduced) override;
     bool expand(const dealii::Vector<double>& kept, dealii::Vector<double>& solution) override;
 
   private:
     /// The sizes of rows and columns differ by many powers of ten, and pivoting compares them.
-    void scale(const dealii::SparseMatrix<double>& matrix);
+    void scale(const std::vector<double>& entries);
 
     Handle<Data> handle_;
+    const CellMatrices* cells_;
     unsigned int size_, kept_;
     std::vector<double> row_scale_, column_scale_;
-    std::vector<int> rows_, columns_, kept_unknowns_;  // from 1
-    std::vector<double> entries_;                      // of the matrix
-    std::vector<Real> values_;                         // of the scaled one
+    std::vector<int> kept_unknowns_;  // from 1
+    std::vector<Real> values_;        // entries of the scaled matrix
     std::vector<Real> left_, reduced_, work_;
 };
 
 template <class Data>
-FactorsOf<Data>::FactorsOf(const dealii::SparsityPattern& pattern, unsigned int kept)
-    : size_(static_cast<unsigned int>(pattern.n_rows())),
+FactorsOf<Data>::FactorsOf(const CellMatrices& cells, unsigned int kept)
+    : cells_(&cells),
+      size_(cells.size),
       kept_(kept),
       row_scale_(size_, 1.0),
       column_scale_(size_, 1.0),
@@ -86,22 +87,18 @@ FactorsOf<Data>::FactorsOf(const dealii::SparsityPattern& pattern, unsigned int 
       left_(static_cast<std::size_t>(kept) * kept),
       reduced_(kept),
       work_(size_) {
-    for (unsigned int row = 0; row < size_; ++row)  // an entry itself would search for its row
-        for (auto entry = pattern.begin(row); entry != pattern.end(row); ++entry) {
-            rows_.push_back(static_cast<int>(row) + 1);
-            columns_.push_back(static_cast<int>(entry->column()) + 1);
-        }
-    entries_.resize(rows_.size());
-    values_.resize(rows_.size());
+    std::size_t entries = 0;
+    cells.for_each([&](const int* /*unknowns*/, std::size_t n, std::size_t begin) { entries = begin + n * n; });
+    values_.resize(entries);
     std::iota(kept_unknowns_.begin(), kept_unknowns_.end(), static_cast<int>(size_ - kept) + 1);
     auto& id = handle_.id;
     id.n = static_cast<MUMPS_INT>(size_);
-    id.nnz = static_cast<MUMPS_INT8>(rows_.size());
-    id.irn = rows_.data();
-    id.jcn = columns_.data();
-    id.a = values_.data();
+    id.nelt = static_cast<MUMPS_INT>(cells.cells());
+    id.eltptr = const_cast<MUMPS_INT*>(cells.begin.data());
+    id.eltvar = const_cast<MUMPS_INT*>(cells.unknowns.data());
+    id.a_elt = values_.data();
     id.rhs = work_.data();
-    handle_.control(6) = 0;  // no permutation of columns: pivoting finds what is not on the diagonal
+    handle_.control(5) = 1;  // a sum of cells' matrices
     handle_.control(7) = static_cast<int>(MumpsOrdering::approximate_minimum_fill);
     handle_.control(8) = 0;  // scale() does it
     handle_.control(14) = spare_workspace;
@@ -117,35 +114,60 @@ FactorsOf<Data>::FactorsOf(const dealii::SparsityPattern& pattern, unsigned int 
 }
 
 template <class Data>
-void FactorsOf<Data>::scale(const dealii::SparseMatrix<double>& matrix) {
+void FactorsOf<Data>::scale(const std::vector<double>& entries) {
     const auto invert = [](double largest) { return largest > 0 ? 1 / largest : 1; };
-    const auto in_row = [this](std::size_t k) { return static_cast<std::size_t>(rows_[k] - 1); };
-    const auto in_column = [this](std::size_t k) { return static_cast<std::size_t>(columns_[k] - 1); };
-    std::size_t next = 0;
-    for (const auto& entry : matrix) entries_[next++] = entry.value();
+    std::vector<double> largest_of_row;
     std::fill(row_scale_.begin(), row_scale_.end(), 0);
-    for (std::size_t k = 0; k < next; ++k)
-        row_scale_[in_row(k)] = std::max(row_scale_[in_row(k)], std::abs(entries_[k]));
+    cells_->for_each([&](const int* unknowns, std::size_t n, std::size_t begin) {
+        largest_of_row.assign(n, 0);
+        for (std::size_t k = 0; k < n; ++k)
+            for (std::size_t i = 0; i < n; ++i)
+                largest_of_row[i] = std::max(largest_of_row[i], std::abs(entries[begin + k * n + i]));
+        for (std::size_t i = 0; i < n; ++i) {
+            auto& largest = row_scale_[static_cast<std::size_t>(unknowns[i] - 1)];
+            largest = std::max(largest, largest_of_row[i]);
+        }
+    });
     std::transform(row_scale_.begin(), row_scale_.end(), row_scale_.begin(), invert);
+    std::vector<double> scale_of_row;
+    const auto take_rows = [&](const int* unknowns, std::size_t n) {
+        scale_of_row.resize(n);
+        for (std::size_t i = 0; i < n; ++i) scale_of_row[i] = row_scale_[static_cast<std::size_t>(unknowns[i] - 1)];
+    };
     std::fill(column_scale_.begin(), column_scale_.end(), 0);
-    for (std::size_t k = 0; k < next; ++k) {
-        entries_[k] *= row_scale_[in_row(k)];
-        column_scale_[in_column(k)] = std::max(column_scale_[in_column(k)], std::abs(entries_[k]));
-    }
+    cells_->for_each([&](const int* unknowns, std::size_t n, std::size_t begin) {
+        take_rows(unknowns, n);
+        for (std::size_t k = 0; k < n; ++k) {
+            auto& largest = column_scale_[static_cast<std::size_t>(unknowns[k] - 1)];
+            for (std::size_t i = 0; i < n; ++i)
+                largest = std::max(largest, std::abs(entries[begin + k * n + i]) * scale_of_row[i]);
+        }
+    });
     std::transform(column_scale_.begin(), column_scale_.end(), column_scale_.begin(), invert);
-    for (std::size_t k = 0; k < next; ++k) values_[k] = static_cast<Real>(entries_[k] * column_scale_[in_column(k)]);
+    cells_->for_each([&](const int* unknowns, std::size_t n, std::size_t begin) {
+        take_rows(unknowns, n);
+        for (std::size_t k = 0; k < n; ++k) {
+            const double of_column = column_scale_[static_cast<std::size_t>(unknowns[k] - 1)];
+            for (std::size_t i = 0; i < n; ++i)
+                values_[begin + k * n + i] =
+                    static_cast<Real>(entries[begin + k * n + i] * scale_of_row[i] * of_column);
+        }
+    });
 }
 
 template <class Data>
-bool FactorsOf<Data>::factorise(const dealii::SparseMatrix<double>& matrix, dealii::FullMatrix<double>& left) {
+bool FactorsOf<Data>::factorise(const std::vector<double>& entries, dealii::FullMatrix<double>& left) {
     left.reinit(kept_, kept_);
     if (size_ == kept_) {  // MUMPS wants something to eliminate
-        for (unsigned int i = 0; i < size_; ++i)
-            for (auto entry = matrix.begin(i); entry != matrix.end(i); ++entry)
-                left(i, entry->column()) = entry->value();
+        cells_->for_each([&](const int* unknowns, std::size_t n, std::size_t begin) {
+            for (std::size_t k = 0; k < n; ++k)
+                for (std::size_t i = 0; i < n; ++i)
+                    left(static_cast<unsigned int>(unknowns[i] - 1), static_cast<unsigned int>(unknowns[k] - 1)) +=
+                        entries[begin + k * n + i];
+        });
         return true;
     }
-    scale(matrix);
+    scale(entries);
 
     int status = handle_.run(job_factorise);
     while ((status == -8 || status == -9) && handle_.control(14) < most_spare_workspace) {
@@ -199,10 +221,9 @@ bool FactorsOf<Data>::expand(const dealii::Vector<double>& kept, dealii::Vector<
 
 }  // namespace
 
-std::unique_ptr<MumpsFactors> mumps_factors(const dealii::SparsityPattern& pattern, unsigned int kept,
-                                            Precision precision) {
-    if (precision == Precision::single) return std::make_unique<FactorsOf<SMUMPS_STRUC_C>>(pattern, kept);
-    return std::make_unique<FactorsOf<DMUMPS_STRUC_C>>(pattern, kept);
+std::unique_ptr<MumpsFactors> mumps_factors(const CellMatrices& cells, unsigned int kept, Precision precision) {
+    if (precision == Precision::single) return std::make_unique<FactorsOf<SMUMPS_STRUC_C>>(cells, kept);
+    return std::make_unique<FactorsOf<DMUMPS_STRUC_C>>(cells, kept);
 }
 
 }  // namespace endoflow::phasefield

@@ -4,30 +4,53 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
+#include <utility>
 
 #include "shared/support/error.h"
 
 namespace endoflow::phasefield {
 
 SubdomainSystem::SubdomainSystem(MPI_Comm communicator, std::string name)
-    : communicator_(communicator), name_(std::move(name)), interface_(communicator, name_ + " interface") {}
+    : communicator_(communicator),
+      name_(std::move(name)),
+      rows_(communicator),
+      matrices_(communicator),
+      interface_(communicator, name_ + " interface") {}
 
-void SubdomainSystem::reinit(const std::vector<std::vector<Index>>& cells, const dealii::IndexSet& owned,
-                             const dealii::IndexSet& relevant, const dealii::AffineConstraints<double>& constraints) {
-    factors_.reset();  // before anything new: they and the matrix are most of a run's memory
-    matrix_.clear();
-    number(cells, owned, relevant, constraints);
-    dealii::DynamicSparsityPattern pattern(size_, size_);
-    for (const auto& cell : cells_) constraints_.add_entries_local_to_global(cell, pattern, false);
-    pattern_.copy_from(pattern);
-    matrix_.reinit(pattern_);
-    right_hand_side_.reinit(size_);
-    solution_.reinit(size_);
+void SubdomainSystem::reinit(const std::vector<std::vector<Index>>& cells, const std::vector<unsigned int>& process,
+                             const dealii::IndexSet& owned) {
+    factors_.reset();  // before anything new: they and the matrices are most of a run's memory
+    own_matrices_ = assigned_matrices_ = {};
+    sizes_.clear();
+    std::vector<std::size_t> sizes, squares;
+    for (const auto& cell : cells) {
+        sizes_.push_back(static_cast<unsigned int>(cell.size()));
+        sizes.push_back(cell.size());
+        squares.push_back(cell.size() * cell.size());
+    }
+    rows_.reinit(process, sizes);
+    matrices_.reinit(process, squares);
+    own_rows_.resize(rows_.own_size());
+    own_matrices_.resize(matrices_.own_size());
+
+    CellExchange counts(communicator_);
+    counts.reinit(process, std::vector<std::size_t>(cells.size(), 1));
+    std::vector<int> own_counts(cells.size()), assigned_counts;
+    std::vector<Index> own_unknowns(rows_.own_size()), unknowns;
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+        own_counts[counts.begin(cell)] = static_cast<int>(sizes_[cell]);
+        std::copy(cells[cell].begin(), cells[cell].end(), &own_unknowns[rows_.begin(cell)]);
+    }
+    counts.hand_over(own_counts, assigned_counts);
+    rows_.hand_over(own_unknowns, unknowns);
+    number(unknowns, owned);
+    cells_.begin = {1};
+    for (const int count : assigned_counts) cells_.begin.push_back(cells_.begin.back() + count);
+    right_hand_side_.reinit(cells_.size);
+    solution_.reinit(cells_.size);
     shared_values_.reinit(shared_);
     precision_ = Precision::single;
-    factors_ = mumps_factors(pattern_, shared_, precision_);
+    factors_ = mumps_factors(cells_, shared_, precision_);
     factors_valid_ = false;
 }
 
@@ -37,23 +60,19 @@ void SubdomainSystem::use(Precision precision) {
     factors_valid_ = false;
     if (!factors_) return;
     factors_.reset();
-    factors_ = mumps_factors(pattern_, shared_, precision_);
+    factors_ = mumps_factors(cells_, shared_, precision_);
 }
 
-void SubdomainSystem::number(const std::vector<std::vector<Index>>& cells, const dealii::IndexSet& owned,
-                             const dealii::IndexSet& relevant, const dealii::AffineConstraints<double>& constraints) {
-    std::set<Index> free, constrained;
-    for (const auto& cell : cells)
-        for (const Index i : cell) {
-            if (!constraints.is_constrained(i)) {
-                free.insert(i);
-                continue;
-            }
-            constrained.insert(i);
-            for (const auto& [master, weight] : *constraints.get_constraint_entries(i)) free.insert(master);
-        }
-    Vector processes(owned, relevant, communicator_), numbers(owned, relevant, communicator_);
-    for (const Index i : free) processes(i) += 1;
+void SubdomainSystem::number(const std::vector<Index>& unknowns, const dealii::IndexSet& owned) {
+    dealii::IndexSet here(owned.size());
+    {
+        std::vector<Index> sorted = unknowns;
+        std::sort(sorted.begin(), sorted.end());
+        sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+        here.add_indices(sorted.begin(), sorted.end());
+    }
+    Vector processes(owned, here, communicator_), numbers(owned, here, communicator_);
+    for (const Index i : here) processes(i) += 1;
     processes.compress(dealii::VectorOperation::add);
     processes.update_ghost_values();
     const auto is_shared = [&processes](Index i) { return processes(i) > 1; };
@@ -68,44 +87,31 @@ void SubdomainSystem::number(const std::vector<std::vector<Index>>& cells, const
         numbers(own_shared[k]) = static_cast<double>(own_range.nth_index_in_set(k));
     numbers.update_ghost_values();
 
-    std::map<Index, Index> own_number;
+    std::vector<int> own_number(here.n_elements());  // by the index in `here`
     std::vector<Index> shared;
-    Index next = 0;
-    for (const Index i : constrained) own_number[i] = next++;
-    for (const Index i : free)
-        if (!is_shared(i)) own_number[i] = next++;
-    for (const Index i : free)
+    int next = 0;
+    for (const Index i : here)
+        if (!is_shared(i)) own_number[here.index_within_set(i)] = ++next;
+    for (const Index i : here)
         if (is_shared(i)) {
-            own_number[i] = next++;
+            own_number[here.index_within_set(i)] = ++next;
             shared.push_back(static_cast<Index>(numbers(i)));
         }
-    size_ = static_cast<unsigned int>(next);
+    cells_.size = static_cast<unsigned int>(next);
     shared_ = static_cast<unsigned int>(shared.size());
     interface_.reinit(own_range, shared);
-    cells_.assign(cells.size(), {});
-    for (std::size_t k = 0; k < cells.size(); ++k)
-        for (const Index i : cells[k]) cells_[k].push_back(own_number.at(i));
-    constraints_.clear();
-    constraints_.reinit(dealii::complete_index_set(size_));
-    for (const Index i : constrained) {
-        constraints_.add_line(own_number.at(i));
-        for (const auto& [master, weight] : *constraints.get_constraint_entries(i))
-            constraints_.add_entry(own_number.at(i), own_number.at(master), weight);
-    }
-    constraints_.close();
+    cells_.unknowns.clear();
+    for (const Index i : unknowns) cells_.unknowns.push_back(own_number[here.index_within_set(i)]);
 }
 
-void SubdomainSystem::start() {
-    matrix_ = 0;
-    right_hand_side_ = 0;
+void SubdomainSystem::set(std::size_t cell, const dealii::FullMatrix<double>& matrix) {
+    double* entry = &own_matrices_[matrices_.begin(cell)];
+    for (unsigned int k = 0; k < matrix.n(); ++k)
+        for (unsigned int i = 0; i < matrix.m(); ++i) *entry++ = matrix(i, k);
 }
 
-void SubdomainSystem::add(std::size_t cell, const dealii::FullMatrix<double>& matrix) {
-    constraints_.distribute_local_to_global(matrix, cells_[cell], matrix_);
-}
-
-void SubdomainSystem::add(std::size_t cell, const dealii::Vector<double>& right_hand_side) {
-    constraints_.distribute_local_to_global(right_hand_side, cells_[cell], right_hand_side_);
+void SubdomainSystem::set(std::size_t cell, const dealii::Vector<double>& right_hand_side) {
+    std::copy(right_hand_side.begin(), right_hand_side.end(), &own_rows_[rows_.begin(cell)]);
 }
 
 bool SubdomainSystem::everywhere(bool own) const {
@@ -127,34 +133,38 @@ void SubdomainSystem::require_solved(bool own) const {
 void SubdomainSystem::factorise() {
     factors_valid_ = false;
     dealii::FullMatrix<double> left;
-    require_solved(factors_->factorise(matrix_, left));
+    matrices_.hand_over(own_matrices_, assigned_matrices_);
+    require_solved(factors_->factorise(assigned_matrices_, left));
     require_solved(interface_.factorise(left));
+}
+
+void SubdomainSystem::sum_right_hand_sides() {
+    rows_.hand_over(own_rows_, assigned_rows_);
+    right_hand_side_ = 0;
+    for (std::size_t k = 0; k < assigned_rows_.size(); ++k) right_hand_side_(in_sum(k)) += assigned_rows_[k];
+    require_finite(right_hand_side_, "residual");
 }
 
 void SubdomainSystem::substitute() {
     const bool reduced = factors_->reduce(right_hand_side_, shared_values_);
     interface_.solve(shared_values_);
     const bool expanded = factors_->expand(shared_values_, solution_);
-    constraints_.distribute(solution_);
     require_solved(reduced && expanded);
     require_finite(solution_, "solution");
+    for (std::size_t k = 0; k < cells_.unknowns.size(); ++k) assigned_rows_[k] = solution_(in_sum(k));
+    rows_.give_back(assigned_rows_, own_rows_);
 }
 
 void SubdomainSystem::solve() {
-    require_finite(right_hand_side_, "residual");
+    sum_right_hand_sides();
     factorise();
     substitute();
     factors_valid_ = true;
 }
 
 void SubdomainSystem::apply_factors() {
-    require_finite(right_hand_side_, "residual");
+    sum_right_hand_sides();
     substitute();
-}
-
-void SubdomainSystem::values(std::size_t cell, dealii::Vector<double>& out) const {
-    const auto& indices = cells_[cell];
-    for (unsigned int i = 0; i < indices.size(); ++i) out(i) = solution_(indices[i]);
 }
 
 }  // namespace endoflow::phasefield

@@ -1,33 +1,35 @@
 #pragma once
 
+#include <deal.II/base/index_set.h>
+
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "phasefield/solver/cell_exchange.h"
 #include "phasefield/solver/interface_system.h"
 #include "phasefield/solver/mumps_factors.h"
 
 namespace endoflow::phasefield {
 
-/// A linear system whose unknowns on one process alone are eliminated there, by a factorisation that takes no
-/// communication. What is left, the unknowns that processes share, is a system of its own for all of them. The factors
-/// are used until they are made anew.
+/// A linear system whose matrix is the sum of dense ones of cells. Each cell is assigned to a process, which need not
+/// be the one that computes it. Unknowns of the cells of one process alone are eliminated there, by a factorisation
+/// that takes no communication. What is left, the unknowns that processes share, is a system of its own for all of
+/// them. The factors are used until they are made anew.
 class SubdomainSystem {
   public:
     using Index = dealii::types::global_dof_index;
 
     SubdomainSystem(MPI_Comm communicator, std::string name);
 
-    /// Allocates. Each process gives the unknowns of its own cells, cell by cell; `owned`, `relevant` and `constraints`
-    /// as of a space.
-    void reinit(const std::vector<std::vector<Index>>& cells, const dealii::IndexSet& owned,
-                const dealii::IndexSet& relevant, const dealii::AffineConstraints<double>& constraints);
-    /// Zero matrix and right-hand side: add() all own cells, then solve().
-    void start();
-    /// Zero right-hand side alone: add() all own cells, then apply_factors().
-    void start_right_hand_side() { right_hand_side_ = 0; }
-    void add(std::size_t cell, const dealii::FullMatrix<double>& matrix);
-    void add(std::size_t cell, const dealii::Vector<double>& right_hand_side);
+    /// Allocates. `cells`: the unknowns of each own cell, `process`: the one that it is assigned to, `owned`: unknowns
+    /// that this process owns.
+    void reinit(const std::vector<std::vector<Index>>& cells, const std::vector<unsigned int>& process,
+                const dealii::IndexSet& owned);
+    /// Set those of all own cells, then solve().
+    void set(std::size_t cell, const dealii::FullMatrix<double>& matrix);
+    /// Set those of all own cells, then solve() or apply_factors().
+    void set(std::size_t cell, const dealii::Vector<double>& right_hand_side);
 
     /// Of the next factors; single at first.
     void use(Precision precision);
@@ -40,14 +42,21 @@ class SubdomainSystem {
     void solve();
     /// The last factors applied to the right-hand side.
     void apply_factors();
-    /// The solution on an own cell, constraints satisfied.
-    void values(std::size_t cell, dealii::Vector<double>& out) const;
+    /// How many an own cell has.
+    [[nodiscard]] unsigned int unknowns(std::size_t cell) const { return sizes_[cell]; }
+    /// The solution at an own cell's unknowns.
+    [[nodiscard]] const double* values(std::size_t cell) const { return &own_rows_[rows_.begin(cell)]; }
     /// Of all processes together.
     [[nodiscard]] Index shared_unknowns() const { return interface_.size(); }
 
   private:
-    void number(const std::vector<std::vector<Index>>& cells, const dealii::IndexSet& owned,
-                const dealii::IndexSet& relevant, const dealii::AffineConstraints<double>& constraints);
+    /// Own numbers of the unknowns of the cells that this process is assigned, where shared ones come last.
+    void number(const std::vector<Index>& unknowns, const dealii::IndexSet& owned);
+    /// Of the unknown of a cell's row, by its place in all assigned rows.
+    [[nodiscard]] unsigned int in_sum(std::size_t place) const {
+        return static_cast<unsigned int>(cells_.unknowns[place] - 1);
+    }
+    void sum_right_hand_sides();
     void factorise();
     void substitute();
     /// Whether it is true on all processes. Collective.
@@ -57,12 +66,12 @@ class SubdomainSystem {
 
     MPI_Comm communicator_;
     std::string name_;
-    std::vector<std::vector<Index>> cells_;  // own numbering: shared unknowns come last
-    unsigned int size_ = 0;                  // own unknowns, of which
-    unsigned int shared_ = 0;                // the last ones are other processes', too
-    dealii::AffineConstraints<double> constraints_;
-    dealii::SparsityPattern pattern_;
-    dealii::SparseMatrix<double> matrix_;
+    std::vector<unsigned int> sizes_;  // unknowns of own cells
+    CellExchange rows_, matrices_;
+    std::vector<double> own_rows_, own_matrices_;            // of own cells: right-hand sides, then solutions
+    std::vector<double> assigned_rows_, assigned_matrices_;  // of those that this process eliminates
+    CellMatrices cells_;
+    unsigned int shared_ = 0;  // the last of cells_.size unknowns are other processes', too
     dealii::Vector<double> right_hand_side_, solution_, shared_values_;
     Precision precision_ = Precision::single;
     std::unique_ptr<MumpsFactors> factors_;

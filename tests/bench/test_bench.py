@@ -85,8 +85,23 @@ class CommandLine(unittest.TestCase):
         self.assertIn("| operators | 1.00 | 2.00 | 40% |", page)
         self.assertIn("Skipped: there is nothing to measure.", page)
 
+    def test_scaling_alone(self):
+        walls = {1: [8.0, 6.0, 9.0], 2: [4.0, 4.0, 3.0], 4: [2.0, 3.0, 2.0]}
+
+        def run(_bench, _engine, _name, *_settings, processes):
+            """A run of some wall time."""
+            solver = {"unknowns_between_processes": 600.0, "iterations": 30.0, "factorisations": 4.0}
+            return {"wall_s": walls[processes].pop(0), "notes": {"solver": solver}}
+
+        with mock.patch.object(measurements.Bench, "run", run), mock.patch("pathlib.Path.exists", return_value=True):
+            self.assertEqual(self.main("--scaling", "1,2,4"), 0)
+        page = (self.output / "bench.md").read_text()
+        self.assertIn("| 4 | 2.0 | 4.00 | 600 | 30 | 4 |", page)
+        self.assertIn("| 2 | 4.0 | 2.00 | 600 | 30 | 4 |", page)
+        self.assertNotIn("ring kernel", page)
+
     def test_bad_command_lines(self):
-        for arguments in (["--only", "nonsense"], ["--repeats", "many"]):
+        for arguments in (["--only", "nonsense"], ["--repeats", "many"], ["--scaling", "two"]):
             with mock.patch("sys.stderr"), self.assertRaises(SystemExit) as stopped:
                 self.main(*arguments)
             self.assertEqual(stopped.exception.code, 2)

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "phasefield/fem/mesh.h"
+#include "phasefield/layer/initial_membrane.h"
 #include "phasefield/schemes/production/step_solver.h"
 
 namespace endoflow::phasefield::production {
@@ -23,7 +24,7 @@ struct OneStep {
           solver(p, MPI_COMM_SELF, tolerance) {
         space.distribute();
         close_constraints(space, p);
-        solver.reinit(space);
+        solver.reinit(space, InitialMembrane(p).curve(1.0));
     }
 
     std::unique_ptr<Mesh> mesh;

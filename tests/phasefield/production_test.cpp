@@ -40,7 +40,7 @@ double first_volume_rate(double epsilon, double cell_size) {
     p.phase_field.epsilon = epsilon;
     p.phase_field.cell_size = cell_size;
     p.molecules.interface_width = 2.4;
-    p.time.tolerance = 1e-5;  // the iterations of so short a step end at 1e-3 of its motion with the default one
+    p.time.tolerance = 1e-6;  // the iterations of so short a step end at 1e-2 of its motion with the default one
     ProductionScheme scheme(p, MPI_COMM_SELF);
     scheme.start();
     constexpr double tau = 1e-7;

@@ -167,9 +167,9 @@ void assemble_cells(const StepProblem& problem, const std::vector<PatternEntry>&
         local.write_residual(cell_rhs);
         rim.add(cell, iterate, cell_rhs);
         if constexpr (with_jacobian)
-            system.add(cell, cell_matrix, cell_rhs);
+            system.set(cell, cell_matrix, cell_rhs);
         else
-            system.add(cell, cell_rhs);
+            system.set(cell, cell_rhs);
     });
 }
 
@@ -177,12 +177,10 @@ void assemble_cells(const StepProblem& problem, const std::vector<PatternEntry>&
 
 void assemble(const StepProblem& problem, const std::vector<PatternEntry>& pattern, const Vector& iterate,
               BlockGaussSeidel& system) {
-    system.start();
     assemble_cells<FeatureDual>(problem, pattern, iterate, system);
 }
 
 void assemble_residual(const StepProblem& problem, const Vector& iterate, BlockGaussSeidel& system) {
-    system.start_right_hand_side();
     assemble_cells<double>(problem, {}, iterate, system);
 }
 

@@ -29,7 +29,7 @@ void ProductionScheme::follow(const MembraneCurve& curve) {
     for (int pass = 0; pass < most_passes && adapt_once(curve); ++pass) adapted = true;
     if (!adapted) return;
     if (state_.thickness) state_.thickness = thickness_on(*mesh_, state_.thickness->curve());
-    solver_.reinit(space_);
+    solver_.reinit(space_, curve);
     if (bulk_) bulk_->renew();
     // Cells are coarsened outside of the layer alone; what that changes in ∫δ_Γ c is restored to round-off. s, a
     // density, stays: what changes in ∫δ_Γ s is the area that the layer measures, and would be a strain.

@@ -50,11 +50,6 @@ void ProductionScheme::distribute() {
     close_constraints(space_, parameters_);
 }
 
-void ProductionScheme::renew() {
-    distribute();
-    solver_.reinit(space_);
-}
-
 Contour ProductionScheme::contour(const Vector& solution) const {
     return extract_contour(contour_fields(space_, solution), parameters_);
 }
@@ -107,7 +102,7 @@ StepOutcome ProductionScheme::present() {
 StepOutcome ProductionScheme::start() {
     const MembraneCurve curve = InitialMembrane(parameters_).curve(0.25 * parameters_.phase_field.cell_size);
     while (flag_bands(*mesh_, refined_bands(curve, parameters_))) mesh_->execute_coarsening_and_refinement();
-    renew();
+    distribute();
 
     state_.solutions = {initial_fields(space_, parameters_, membrane_energy(parameters_))};
     state_.solutions.front().update_ghost_values();
@@ -121,6 +116,7 @@ StepOutcome ProductionScheme::start() {
                             state_.masses.front());
     }
     StepOutcome out = present();
+    solver_.reinit(space_, state_.membrane);
     if (bulk_) out.diagnostics.bulk = bulk;
     return out;
 }

@@ -48,7 +48,6 @@ class ProductionScheme : public Scheme {
   private:
     void distribute();
     /// The mesh has changed, and the space with it.
-    void renew();
     bool adapt_once(const MembraneCurve& curve);
     /// The state's solutions, each with its own ∫ c dA where the layer has a step's thickness: with one factor for all,
     /// what is left of the others' errors would be a source.

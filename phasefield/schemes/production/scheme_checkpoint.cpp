@@ -25,11 +25,13 @@ StepOutcome ProductionScheme::load(const std::filesystem::path& directory, const
     reader("collar_place", case_.loads.collar_place);
     solver_.serialize(reader);
     load_mesh(directory, *mesh_);
-    renew();
+    distribute();
     state_.thickness = thickness_on(*mesh_, std::move(curve));
     state_.solutions = MeshTransfer::loaded(space_, state_.times.size());
     if (bulk_) bulk_->load(checkpoint);
-    return present();
+    StepOutcome out = present();
+    solver_.reinit(space_, state_.membrane);
+    return out;
 }
 
 }  // namespace endoflow::phasefield::production

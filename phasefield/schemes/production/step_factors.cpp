@@ -2,6 +2,7 @@
 
 #include "phasefield/layer/constants.h"
 #include "phasefield/schemes/production/diagnostics.h"
+#include "phasefield/solver/parts_along.h"
 
 namespace endoflow::phasefield::production {
 
@@ -22,6 +23,10 @@ std::vector<std::vector<unsigned int>> blocks_of_fields(const Parameters& parame
 
 StepFactors::StepFactors(const Parameters& parameters, MPI_Comm communicator)
     : system_(communicator, "coupled", blocks_of_fields(parameters)) {}
+
+void StepFactors::reinit(const Space& space, const MembraneCurve& membrane) {
+    system_.reinit(space, parts_along(membrane, space));
+}
 
 bool StepFactors::serve(const StepProblem& problem, const Vector& solution) const {
     if (!system_.has_factors()) return false;

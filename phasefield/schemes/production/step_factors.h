@@ -2,6 +2,7 @@
 
 #include "phasefield/schemes/production/assembly.h"
 #include "phasefield/solver/block_gauss_seidel.h"
+#include "shared/geometry/membrane_curve.h"
 
 namespace endoflow::phasefield::production {
 
@@ -11,8 +12,9 @@ class StepFactors {
   public:
     StepFactors(const Parameters& parameters, MPI_Comm communicator);
 
-    /// The mesh has changed: there are none.
-    void reinit(const Space& space) { system_.reinit(space); }
+    /// The mesh has changed: there are none. Processes share the elimination along the membrane, so each has two
+    /// neighbours, and few unknowns in common with them.
+    void reinit(const Space& space, const MembraneCurve& membrane);
     void forget() { system_.forget_factors(); }
 
     /// In single precision, or not; forgets those there are where that changes.

@@ -26,7 +26,7 @@ class StepSolver {
     StepSolver(const Parameters& parameters, MPI_Comm communicator, double wanted);
 
     /// The mesh has changed: nothing is left of the factors.
-    void reinit(const Space& space) { factors_.reinit(space); }
+    void reinit(const Space& space, const MembraneCurve& membrane) { factors_.reinit(space, membrane); }
 
     /// `solution` holds the guess, then the solution, both with ghost values.
     /// Throws SolverError("newton-divergence", …); the next call starts with new factors. Throws Interrupted between

@@ -1,0 +1,105 @@
+#include "phasefield/solver/parts_along.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace endoflow::phasefield {
+
+namespace {
+
+using Cell = dealii::DoFHandler<2>::active_cell_iterator;
+
+constexpr double slack = 0.05;  // of a part's cells, to either side of an equal cut
+
+/// Which one of the membrane's points is closest to the middle of a cell: they follow each other along the membrane.
+double place(const Cell& cell, const MembraneCurve& membrane) {
+    const auto middle = cell->center();
+    std::size_t closest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < membrane.size(); ++i) {
+        const double r = membrane.r[i] - middle[0], z = membrane.z[i] - middle[1], square = r * r + z * z;
+        if (square < least) {
+            least = square;
+            closest = i;
+        }
+    }
+    return static_cast<double>(closest);
+}
+
+/// Of all processes together.
+std::vector<double> gathered(const std::vector<double>& own, MPI_Comm communicator) {
+    std::vector<double> out;
+    for (const auto& of_process : dealii::Utilities::MPI::all_gather(communicator, own))
+        out.insert(out.end(), of_process.begin(), of_process.end());
+    return out;
+}
+
+/// Places of own cells, and of the two cells on either side of a face: the lower and the higher one, twice for each
+/// face.
+struct Places {
+    std::vector<double> cells, below, above;
+};
+
+Places places_along(const MembraneCurve& membrane, const Space& space) {
+    std::vector<double> of_cell(space.dofs.get_triangulation().n_active_cells());
+    for (const auto& cell : space.dofs.active_cell_iterators())
+        if (!cell->is_artificial()) of_cell[cell->active_cell_index()] = place(cell, membrane);
+    Places out;
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+        if (!cell->is_locally_owned()) continue;
+        const double here = of_cell[cell->active_cell_index()];
+        out.cells.push_back(here);
+        for (const unsigned int face : cell->face_indices()) {
+            if (cell->at_boundary(face) || cell->neighbor(face)->has_children()) continue;
+            const double there = of_cell[cell->neighbor(face)->active_cell_index()];
+            // A smaller cell's face is its own alone; one between equal cells is met from either side.
+            for (int k = cell->neighbor_is_coarser(face) ? 0 : 1; k < 2; ++k) {
+                out.below.push_back(std::min(here, there));
+                out.above.push_back(std::max(here, there));
+            }
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<unsigned int> parts_along(const MembraneCurve& membrane, const Space& space) {
+    const MPI_Comm communicator = space.dofs.get_communicator();
+    const auto processes = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    const Places own = places_along(membrane, space);
+    auto cells = gathered(own.cells, communicator);
+    std::sort(cells.begin(), cells.end());
+    const auto below = gathered(own.below, communicator), above = gathered(own.above, communicator);
+    const auto faces_met = [&](double cut) {
+        std::size_t count = 0;
+        for (std::size_t face = 0; face < below.size(); ++face) count += below[face] < cut && cut <= above[face];
+        return count;
+    };
+    const double part = static_cast<double>(cells.size()) / processes;
+    std::vector<double> cuts;
+    for (unsigned int k = 1; k < processes; ++k) {
+        const auto first = static_cast<std::size_t>((k - slack) * part),
+                   last = static_cast<std::size_t>((k + slack) * part);
+        const auto equal = static_cast<std::size_t>(k * part);
+        double best = cells[equal];
+        std::size_t fewest = faces_met(best);
+        for (std::size_t i = first; i <= last; ++i) {
+            const std::size_t met = faces_met(cells[i]);
+            if (met < fewest) {
+                fewest = met;
+                best = cells[i];
+            }
+        }
+        cuts.push_back(best);
+    }
+    std::vector<unsigned int> out;
+    for (const double at : own.cells)
+        out.push_back(static_cast<unsigned int>(std::upper_bound(cuts.begin(), cuts.end(), at) - cuts.begin()));
+    return out;
+}
+
+}  // namespace endoflow::phasefield
