@@ -5,6 +5,8 @@ plots and report.html. Exit codes: 0 done; 2 bad command line or parameter; 3 a 
 143 interrupted (run it again to continue).
 """
 
+import math
+
 import endoflow
 from comparisons.commands.options import common_settings, output_directory
 from comparisons.errors import BAD_INPUT, RUN_FAILED, StudyError, shown
@@ -17,9 +19,13 @@ from comparisons.studies.ranges import positive_numbers
 from comparisons.studies.study import Study
 
 
-#: Of the scheme `production`, whose defaults are not those of a study of ε: cells of one ε, and time.tolerance at the
+#: Of the scheme `production`, whose defaults are not those of a study of ε: largest cells, and time.tolerance at the
 #: largest ε, from where it falls with ε².
 CELLS_PER_EPSILON, TOLERANCE = 1.0, 2e-5
+
+#: Cells are in proportion when their sizes over ε differ by this part at most; to be so they may be smaller than the
+#: largest ones by this factor.
+IN_PROPORTION, SMALLEST_CELLS = 0.01, 0.66
 
 
 class Convergence(Study):
@@ -41,13 +47,14 @@ class Convergence(Study):
         ratio = own["phase_field"]["cell_size"] / own["phase_field"]["epsilon"]
         if options.cells_per_epsilon is not None:
             ratio = 1 / positive_numbers(options.cells_per_epsilon, "--cells-per-epsilon")[0]
-        elif production and ratio == 0:
-            ratio = 1 / CELLS_PER_EPSILON
         name = "boundary-integral"
         self.sharp = checked_member(name, options.case, self.output / name, name, base)
         layers = sorted(positive_numbers(options.epsilon, "--epsilon"), reverse=True)
-        for epsilon in layers:
-            values = {"phase_field.epsilon": f"{epsilon:.12g}", "phase_field.cell_size": f"{ratio * epsilon:.12g}"}
+        sizes = {epsilon: ratio * epsilon for epsilon in layers}
+        if production and ratio == 0:
+            sizes = cells_in_proportion(own, layers)
+        for epsilon, size in sizes.items():
+            values = {"phase_field.epsilon": f"{epsilon:.12g}", "phase_field.cell_size": f"{size:.12g}"}
             if production:
                 tolerance = (own["time"]["tolerance"] or TOLERANCE) * (epsilon / layers[0]) ** 2
                 values["time.tolerance"] = f"{tolerance:.6g}"
@@ -86,6 +93,34 @@ class Convergence(Study):
         convergence_page.write_page(sharp, kept, metrics, case, self.output)
         self.warn(metrics["warnings"])
         return summary_lines(metrics, self.output)
+
+
+def filling(size, parameters):
+    """The cells of the mesh [nm] for this phase_field.cell_size, as phasefield/fem/mesh.cpp makes them: whole coarse
+    cells, each halved some times, fill the box's radius."""
+    radius = parameters["domain"]["radius"]
+    halvings = parameters["phase_field"]["far_refinements"] + max(0, math.floor(math.log2(radius / (48 * size))))
+    coarse = size * 2**halvings
+    return radius / max(1, round(radius / coarse)) / 2**halvings
+
+
+def cells_in_proportion(parameters, layers):
+    """{ε: cell size in nm}: cells of at most one ε that fill the box in one proportion to all ε, the largest ones, or
+    those nearest to that. Were they rounded each for itself, by up to 6 %, what the cells change would be taken for a
+    part of ε's order."""
+    if parameters["domain"]["kind"] != "box":
+        return {epsilon: epsilon / CELLS_PER_EPSILON for epsilon in layers}
+    steps, best, least = 100, None, math.inf
+    for step in range(steps + 1):
+        part = (1 - (1 - SMALLEST_CELLS) * step / steps) / CELLS_PER_EPSILON
+        found = {epsilon: filling(part * epsilon, parameters) for epsilon in layers}
+        proportions = [size / epsilon for epsilon, size in found.items()]
+        spread = max(proportions) / min(proportions) - 1
+        if max(proportions) <= (1 + IN_PROPORTION) / CELLS_PER_EPSILON and spread < least:
+            best, least = found, spread
+            if spread <= IN_PROPORTION:
+                break
+    return best
 
 
 def summary_lines(metrics, output):

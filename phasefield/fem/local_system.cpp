@@ -95,12 +95,8 @@ void LocalSystem::jacobian(unsigned int test, Op test_op, unsigned int trial, co
     for (const Op trial_op : all_operations) {
         const Coefficients* weight = weights[static_cast<unsigned int>(trial_op)];
         if (weight == nullptr) continue;
-        const auto& trial_shapes = shapes(trial, trial_op);
-        const double factor = scale(test_op) * scale(trial_op);
-        for (std::size_t q = 0; q < n_points; ++q) {
-            const double w = factor * (*weight)[q];
-            for (std::size_t k = 0; k < n_trial; ++k) columns_[q * n_trial + k] += w * trial_shapes[q * n_trial + k];
-        }
+        add_scaled_rows(scale(test_op) * scale(trial_op), weight->data(), shapes(trial, trial_op).data(), n_points,
+                        n_trial, columns_.data());
     }
     add_transposed_product(shapes(test, test_op).data(), columns_.data(), n_points, n_test, n_trial,
                            blocks_[test * n_components_ + trial].data());

@@ -9,4 +9,8 @@ namespace endoflow::phasefield {
 void add_transposed_product(const double* a, const double* b, std::size_t n, std::size_t n_rows, std::size_t n_columns,
                             double* c);
 
+/// Adds to each row q of C that of B times `factor` and scale[q]; both n × n_columns.
+void add_scaled_rows(double factor, const double* scale, const double* b, std::size_t n, std::size_t n_columns,
+                     double* c);
+
 }  // namespace endoflow::phasefield

@@ -7,36 +7,41 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 
 namespace endoflow {
 
-/// N numbers that are calculated with together, four at a time: compilers vectorise loops this short so badly that a
-/// product of jets took ten times as long.
-template <std::size_t N>
+/// N numbers that are calculated with together, 32 bytes at a time: compilers vectorise loops this short so badly that
+/// a product of jets took ten times as long.
+template <std::size_t N, class Real = double>
 class Row {
   public:
-    [[nodiscard]] double& operator[](std::size_t i) { return numbers_[i]; }
-    [[nodiscard]] double operator[](std::size_t i) const { return numbers_[i]; }
+    [[nodiscard]] Real& operator[](std::size_t i) { return numbers_[i]; }
+    [[nodiscard]] Real operator[](std::size_t i) const { return numbers_[i]; }
 
     /// Sets this to a x + b y.
     void combine(double a, const Row& x, double b, const Row& y) {
-        for (std::size_t k = 0; k < size; k += width) put(k, a * Chunk(x, k).numbers + b * Chunk(y, k).numbers);
+        const auto of_x = static_cast<Real>(a), of_y = static_cast<Real>(b);
+        for (std::size_t k = 0; k < size; k += width) put(k, of_x * Chunk(x, k).numbers + of_y * Chunk(y, k).numbers);
     }
     void multiply(double a) {
-        for (std::size_t k = 0; k < size; k += width) put(k, a * Chunk(*this, k).numbers);
+        const auto by = static_cast<Real>(a);
+        for (std::size_t k = 0; k < size; k += width) put(k, by * Chunk(*this, k).numbers);
     }
     /// Adds a x.
     void add(double a, const Row& x) { combine(1, *this, a, x); }
     /// Adds a x + b y.
     void add(double a, const Row& x, double b, const Row& y) {
+        const auto of_x = static_cast<Real>(a), of_y = static_cast<Real>(b);
         for (std::size_t k = 0; k < size; k += width)
-            put(k, Chunk(*this, k).numbers + a * Chunk(x, k).numbers + b * Chunk(y, k).numbers);
+            put(k, Chunk(*this, k).numbers + of_x * Chunk(x, k).numbers + of_y * Chunk(y, k).numbers);
     }
 
   private:
-    static constexpr std::size_t width = N > 4 ? 4 : 1, size = (N + width - 1) / width * width;
+    static constexpr std::size_t at_once = 32 / sizeof(Real), width = N > at_once ? at_once : 1,
+                                 size = (N + width - 1) / width * width;
     struct Chunk {  // a class, for functions that return vectors differ from one instruction set to the next
-        [[gnu::vector_size(width * sizeof(double))]] double numbers;
+        [[gnu::vector_size(width * sizeof(Real))]] Real numbers;
         Chunk(const Row& row, std::size_t k) { std::memcpy(&numbers, &row.numbers_[k], sizeof numbers); }
     };
     template <class Numbers>
@@ -44,14 +49,14 @@ class Row {
         std::memcpy(&numbers_[k], &numbers, sizeof numbers);
     }
 
-    std::array<double, size> numbers_{};
+    std::array<Real, size> numbers_{};
 };
 
-/// A value with its N partial derivatives.
-template <std::size_t N>
+/// A value with its N partial derivatives, of a precision of their own.
+template <std::size_t N, class Partial = double>
 struct Dual {
     double value = 0;
-    Row<N> partial;
+    Row<N, Partial> partial;
 
     Dual() = default;
     Dual(double constant) : value(constant) {}  // NOLINT(google-explicit-constructor): constants mix with duals
@@ -168,8 +173,8 @@ struct Jet {
 [[nodiscard]] inline double value_of(double x) {
     return x;
 }
-template <std::size_t N>
-[[nodiscard]] double value_of(const Dual<N>& x) {
+template <std::size_t N, class Partial>
+[[nodiscard]] double value_of(const Dual<N, Partial>& x) {
     return x.value;
 }
 template <std::size_t N>
@@ -181,8 +186,8 @@ template <std::size_t N>
 [[nodiscard]] inline double chain(double /*x*/, double f, double /*first*/, double /*second*/ = 0) {
     return f;
 }
-template <std::size_t N>
-[[nodiscard]] Dual<N> chain(Dual<N> x, double f, double first, double /*second*/ = 0) {
+template <std::size_t N, class Partial>
+[[nodiscard]] Dual<N, Partial> chain(Dual<N, Partial> x, double f, double first, double /*second*/ = 0) {
     x.value = f;
     x.partial.multiply(first);
     return x;
@@ -196,8 +201,8 @@ template <std::size_t N>
 }
 
 /// √x of a dual or jet.
-template <template <std::size_t> class Number, std::size_t N>
-[[nodiscard]] Number<N> sqrt(const Number<N>& x) {
+template <class Number>
+requires(!std::is_arithmetic_v<Number>) [[nodiscard]] Number sqrt(const Number& x) {
     const double root = std::sqrt(x.value);
     return chain(x, root, 0.5 / root, -0.25 / (root * x.value));
 }
@@ -207,9 +212,9 @@ template <std::size_t M>
 [[nodiscard]] double compose(const Jet<M>& f, const std::array<double, M>& /*x*/) {
     return f.value;
 }
-template <std::size_t M, std::size_t N>
-[[nodiscard]] Dual<N> compose(const Jet<M>& f, const std::array<Dual<N>, M>& x) {
-    Dual<N> y(f.value);
+template <std::size_t M, std::size_t N, class Partial>
+[[nodiscard]] Dual<N, Partial> compose(const Jet<M>& f, const std::array<Dual<N, Partial>, M>& x) {
+    Dual<N, Partial> y(f.value);
     for (std::size_t a = 0; a < M; ++a) y.partial.add(f.partial[a], x[a].partial);
     return y;
 }
@@ -236,9 +241,10 @@ template <std::size_t M>
 [[nodiscard]] double compose_partial(const Dual<M>& f, std::size_t a, const std::array<double, M>& /*x*/) {
     return f.partial[a];
 }
-template <std::size_t M, std::size_t N>
-[[nodiscard]] Dual<N> compose_partial(const Jet<M>& f, std::size_t a, const std::array<Dual<N>, M>& x) {
-    Dual<N> y(f.partial[a]);
+template <std::size_t M, std::size_t N, class Partial>
+[[nodiscard]] Dual<N, Partial> compose_partial(const Jet<M>& f, std::size_t a,
+                                               const std::array<Dual<N, Partial>, M>& x) {
+    Dual<N, Partial> y(f.partial[a]);
     for (std::size_t b = 0; b < M; ++b) y.partial.add(f.second[a][b], x[b].partial);
     return y;
 }

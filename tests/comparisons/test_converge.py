@@ -9,6 +9,7 @@ import locations  # noqa: F401
 from command import unnamed_basis
 from studies import StudyTest
 
+from comparisons.commands.converge import cells_in_proportion
 from comparisons.measures.convergence import DiffuseRun
 from comparisons.page.convergence_page import spread
 
@@ -107,6 +108,31 @@ class Converge(StudyTest):
             with self.subTest(arguments):
                 self.assert_one_line(self.call("converge", "case.toml", *arguments), 2, message)
         self.assertEqual(self.runs(), [])
+
+
+class Cells(unittest.TestCase):
+    """The study's own cells fill the box, and are in proportion to ε to a per cent."""
+
+    @staticmethod
+    def proportions(radius, *layers, kind="box"):
+        """Cell size over ε, of each ε."""
+        parameters = {"domain": {"kind": kind, "radius": radius}, "phase_field": {"far_refinements": 3}}
+        return [size / epsilon for epsilon, size in cells_in_proportion(parameters, layers).items()]
+
+    def test_in_proportion(self):
+        for radius, layers in ((80, (1.2, 0.85, 0.6)), (80, (2.4, 1.2)), (100, (1.2, 0.6, 0.3)), (40, (1.2, 0.85, 0.6))):
+            found = self.proportions(radius, *layers)
+            self.assertLess(max(found) / min(found), 1.0101)
+            self.assertLess(max(found), 1.0101)
+        # In 60 nm there are none; the nearest differ by 1.2 %.
+        near = self.proportions(60, 1.2, 0.85, 0.6)
+        self.assertLess(max(near) / min(near), 1.013)
+        self.assertEqual(self.proportions(80, 1.2, 0.85, kind="free_space"), [1, 1])
+
+    def test_whole_cells_fill_the_radius(self):
+        sizes = [part * 0.6 for part in self.proportions(80, 1.2, 0.6)]
+        for size in sizes:
+            self.assertAlmostEqual(80 / size % 1, 0)
 
 
 class CellSize(unittest.TestCase):

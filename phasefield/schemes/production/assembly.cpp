@@ -16,7 +16,7 @@ namespace endoflow::phasefield::production {
 namespace {
 
 constexpr Op operations[3] = {Op::value, Op::dr, Op::dz};
-using FeatureDual = Dual<n_variables>;
+using FeatureDual = Dual<n_variables, float>;  // the factors are of single precision
 
 template <class Number>
 const Number& feature(const AtPoint<Number>& at, unsigned int operation) {
