@@ -216,6 +216,8 @@ bool FactorsOf<Data>::expand(const dealii::Vector<double>& kept, dealii::Vector<
     handle_.control(26) = kept_ > 0 ? 2 : 0;
     const int status = handle_.run(job_solve);
     for (unsigned int i = 0; i < size_; ++i) solution(i) = column_scale_[i] * static_cast<double>(work_[i]);
+    // Not rounded: what hangs on a kept unknown is the same on all processes.
+    for (unsigned int k = 0; k < kept_; ++k) solution(static_cast<unsigned int>(eliminated) + k) = kept(k);
     return status >= 0;
 }
 

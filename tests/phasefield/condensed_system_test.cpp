@@ -18,7 +18,7 @@ using namespace endoflow::phasefield;
 
 namespace {
 
-constexpr int refinements = 4;
+constexpr int refinements = 3;
 
 /// A system without symmetry, its rows of sizes as different as those of fields that only live on the membrane, on a
 /// mesh with cells of three sizes: solved whole and condensed.
