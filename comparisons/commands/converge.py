@@ -11,7 +11,7 @@ import endoflow
 from comparisons.commands.options import common_settings, output_directory
 from comparisons.errors import BAD_INPUT, RUN_FAILED, StudyError, shown
 from comparisons.files import write_json, write_table
-from comparisons.measures.convergence import DiffuseRun, study_metrics, table
+from comparisons.measures.convergence import IN_PROPORTION, DiffuseRun, study_metrics, table
 from comparisons.measures.metrics import flattened
 from comparisons.page import convergence_page
 from comparisons.studies.members import checked_member, load_run, resolved_parameters, settings_of
@@ -23,9 +23,8 @@ from comparisons.studies.study import Study
 #: largest ε, from where it falls with ε².
 CELLS_PER_EPSILON, TOLERANCE = 1.0, 2e-5
 
-#: Cells are in proportion when their sizes over ε differ by this part at most; to be so they may be smaller than the
-#: largest ones by this factor.
-IN_PROPORTION, SMALLEST_CELLS = 0.01, 0.66
+#: To be in proportion cells may be smaller than the largest ones by this factor.
+SMALLEST_CELLS = 0.66
 
 
 class Convergence(Study):

@@ -36,6 +36,9 @@ LEAST_ORDER, LARGEST_ORDER = 0.2, 8.0
 
 #: Sum of squares, relative to that of the values about their mean, above which v0 + a ε^p is no description of them.
 LARGEST_MISFIT = 0.05
+
+#: Cells are in proportion when their sizes over ε differ by this part at most.
+IN_PROPORTION = 0.01
 SCHEMA_VERSION = 1
 
 #: What is compared beside DISTANCES, whose sharp value is 0: pairs of a comparison's record.
@@ -301,7 +304,7 @@ def warnings(sharp, diffuse, records, times):
         if covered < len(diffuse):
             found.append(f"only {covered} of {len(diffuse)} phase-field runs cover {time:g} µs")
     ratios = [one.cell_size / one.epsilon for one in diffuse if one.cell_size is not None]
-    if ratios and max(ratios) > 1.001 * min(ratios):
+    if ratios and max(ratios) > (1 + IN_PROPORTION) * min(ratios):
         found.append("cell_size/ε is not the same in all runs: the errors mix the layer's width and the mesh")
     return found
 
