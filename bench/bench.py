@@ -53,7 +53,9 @@ def parsed(arguments):
 def main(arguments):
     """Measure, print and write; returns the exit code."""
     options = parsed(arguments)
-    bench = measurements.Bench(options.build.resolve(), options.output.resolve(), options.quick, options.repeats, options.scaling)
+    bench = measurements.Bench(
+        options.build.resolve(), options.output.resolve(), options.quick, options.repeats, options.scaling
+    )
     found = {"machine": machine.describe(), "quick": options.quick, "repeats": options.repeats, "figures": {}}
     if found["machine"]["load_at_start"] > 0.3:
         print("note: the machine is not idle; compare CPU times and ratios, not wall times", file=sys.stderr)

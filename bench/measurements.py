@@ -22,6 +22,9 @@ NO_FIELDS = "output.field_interval=0"
 #: Names of the runs of the phase field's schemes.
 PAPER_RUN, PRODUCTION_RUN = "phase_field_paper", "phase_field_production"
 
+#: What stands for a figure of an engine that is not there.
+NO_PHASE_FIELD = {"skipped": "endoflow was built without the phase-field engine (ENDOFLOW_PHASEFIELD=OFF)"}
+
 
 class RunFailed(Exception):
     """A command ended with an error."""
@@ -52,6 +55,10 @@ class Bench:
             line = (process.stderr.strip() or process.stdout.strip() or "no message").splitlines()[0]
             raise RunFailed(f"endoflow {' '.join(map(str, arguments))} ended with {process.returncode}: {line}")
         return time.monotonic() - begin
+
+    def has_phase_field(self):
+        """Whether the build has this engine."""
+        return (self.build / "endoflow-phase-field").exists()
 
     def directory(self, name):
         """Where a run lies."""
@@ -134,8 +141,8 @@ def phase_field_schemes(bench):
     """The standard case by both phase-field schemes on one process, one run each: CPU time of `production` up to several
     times, and of `paper` to 0.5 µs, when the mesh has grown, and from there on by the mean of the last fifth of its
     steps, of which it takes at least one per `phase_field.paper.max_step`, 2 ns."""
-    if not (bench.build / "endoflow-phase-field").exists():
-        return {"skipped": "endoflow was built without the phase-field engine (ENDOFLOW_PHASEFIELD=OFF)"}
+    if not bench.has_phase_field():
+        return NO_PHASE_FIELD
     times, paper_end = ((0.001,), 0.0005) if bench.quick else ((1, 3, 20), 0.5)
     paper = bench.run("phase-field", PAPER_RUN, "phase_field.scheme=paper", f"time.end={paper_end}", NO_FIELDS)
     per_step = late_step_cost(bench.directory(PAPER_RUN) / "history.csv", cpu_per_wall(paper))
@@ -168,8 +175,8 @@ def phase_field_schemes(bench):
 def scaling(bench):
     """The standard case by the phase-field engine to 0.02 µs on each of the numbers of processes, which are taken in turn
     in every repeat; --quick: to 0.1 ns."""
-    if not (bench.build / "endoflow-phase-field").exists():
-        return {"skipped": "endoflow was built without the phase-field engine (ENDOFLOW_PHASEFIELD=OFF)"}
+    if not bench.has_phase_field():
+        return NO_PHASE_FIELD
     end = 1e-4 if bench.quick else 0.02
     records = {count: [] for count in bench.scaling}
     for _ in range(bench.repeats):

@@ -1,7 +1,5 @@
 #include "phasefield/solver/cell_exchange.h"
 
-#include <deal.II/base/mpi.h>
-
 #include <utility>
 
 namespace endoflow::phasefield {
@@ -26,15 +24,6 @@ void CellExchange::reinit(const std::vector<unsigned int>& process, const std::v
         begin_.push_back(next[process[cell]]);
         next[process[cell]] += sizes[cell];
     }
-}
-
-template <class Number>
-void CellExchange::exchange(const std::vector<Number>& from, const Parts& sent, std::vector<Number>& to,
-                            const Parts& received) const {
-    to.resize(received.total);
-    const auto type = dealii::Utilities::MPI::mpi_type_id_for_type<Number>;
-    MPI_Alltoallv(from.data(), sent.parts.data(), sent.begins.data(), type, to.data(), received.parts.data(),
-                  received.begins.data(), type, communicator_);
 }
 
 }  // namespace endoflow::phasefield

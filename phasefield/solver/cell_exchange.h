@@ -1,6 +1,6 @@
 #pragma once
 
-#include <mpi.h>
+#include <deal.II/base/mpi.h>
 
 #include <cstddef>
 #include <vector>
@@ -40,7 +40,12 @@ class CellExchange {
 
     template <class Number>
     void exchange(const std::vector<Number>& from, const Parts& sent, std::vector<Number>& to,
-                  const Parts& received) const;
+                  const Parts& received) const {
+        to.resize(received.total);
+        const auto type = dealii::Utilities::MPI::mpi_type_id_for_type<Number>;
+        MPI_Alltoallv(from.data(), sent.parts.data(), sent.begins.data(), type, to.data(), received.parts.data(),
+                      received.begins.data(), type, communicator_);
+    }
 
     MPI_Comm communicator_;
     Parts own_, assigned_;

@@ -22,13 +22,12 @@ void SubdomainSystem::reinit(const std::vector<std::vector<Index>>& cells, const
     factors_.reset();  // before anything new: they and the matrices are most of a run's memory
     own_matrices_ = assigned_matrices_ = {};
     sizes_.clear();
-    std::vector<std::size_t> sizes, squares;
+    std::vector<std::size_t> squares;
     for (const auto& cell : cells) {
-        sizes_.push_back(static_cast<unsigned int>(cell.size()));
-        sizes.push_back(cell.size());
+        sizes_.push_back(cell.size());
         squares.push_back(cell.size() * cell.size());
     }
-    rows_.reinit(process, sizes);
+    rows_.reinit(process, sizes_);
     matrices_.reinit(process, squares);
     own_rows_.resize(rows_.own_size());
     own_matrices_.resize(matrices_.own_size());

@@ -43,7 +43,7 @@ class SubdomainSystem {
     /// The last factors applied to the right-hand side.
     void apply_factors();
     /// How many an own cell has.
-    [[nodiscard]] unsigned int unknowns(std::size_t cell) const { return sizes_[cell]; }
+    [[nodiscard]] unsigned int unknowns(std::size_t cell) const { return static_cast<unsigned int>(sizes_[cell]); }
     /// The solution at an own cell's unknowns.
     [[nodiscard]] const double* values(std::size_t cell) const { return &own_rows_[rows_.begin(cell)]; }
     /// Of all processes together.
@@ -66,7 +66,7 @@ class SubdomainSystem {
 
     MPI_Comm communicator_;
     std::string name_;
-    std::vector<unsigned int> sizes_;  // unknowns of own cells
+    std::vector<std::size_t> sizes_;  // unknowns of own cells
     CellExchange rows_, matrices_;
     std::vector<double> own_rows_, own_matrices_;            // of own cells: right-hand sides, then solutions
     std::vector<double> assigned_rows_, assigned_matrices_;  // of those that this process eliminates

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <type_traits>
 
 namespace endoflow {
 
@@ -202,7 +201,10 @@ template <std::size_t N>
 
 /// √x of a dual or jet.
 template <class Number>
-requires(!std::is_arithmetic_v<Number>) [[nodiscard]] Number sqrt(const Number& x) {
+requires requires(const Number& x) {
+    x.partial;
+}
+[[nodiscard]] Number sqrt(const Number& x) {
     const double root = std::sqrt(x.value);
     return chain(x, root, 0.5 / root, -0.25 / (root * x.value));
 }

@@ -1,8 +1,8 @@
 #include "phasefield/schemes/production/step_factors.h"
 
+#include "phasefield/contour/parts_along.h"
 #include "phasefield/layer/constants.h"
 #include "phasefield/schemes/production/diagnostics.h"
-#include "phasefield/solver/parts_along.h"
 
 namespace endoflow::phasefield::production {
 

@@ -1,33 +1,17 @@
-#include "phasefield/solver/parts_along.h"
+#include "phasefield/contour/parts_along.h"
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <numeric>
+
+#include "phasefield/contour/polyline.h"
 
 namespace endoflow::phasefield {
 
 namespace {
 
-using Cell = dealii::DoFHandler<2>::active_cell_iterator;
-
 constexpr double slack = 0.05;  // of a part's cells, to either side of an equal cut
-
-/// Which one of the membrane's points is closest to the middle of a cell: they follow each other along the membrane.
-double place(const Cell& cell, const MembraneCurve& membrane) {
-    const auto middle = cell->center();
-    std::size_t closest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < membrane.size(); ++i) {
-        const double r = membrane.r[i] - middle[0], z = membrane.z[i] - middle[1], square = r * r + z * z;
-        if (square < least) {
-            least = square;
-            closest = i;
-        }
-    }
-    return static_cast<double>(closest);
-}
 
 /// Of all processes together.
 std::vector<double> gathered(const std::vector<double>& own, MPI_Comm communicator) {
@@ -44,9 +28,14 @@ struct Places {
 };
 
 Places places_along(const MembraneCurve& membrane, const Space& space) {
+    std::vector<double> along(membrane.size());  // the membrane, by its points
+    std::iota(along.begin(), along.end(), 0.0);
     std::vector<double> of_cell(space.dofs.get_triangulation().n_active_cells());
-    for (const auto& cell : space.dofs.active_cell_iterators())
-        if (!cell->is_artificial()) of_cell[cell->active_cell_index()] = place(cell, membrane);
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+        if (cell->is_artificial()) continue;
+        const auto middle = cell->center();
+        of_cell[cell->active_cell_index()] = at_closest_point(membrane.r, membrane.z, along, middle[0], middle[1]);
+    }
     Places out;
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
@@ -70,6 +59,7 @@ Places places_along(const MembraneCurve& membrane, const Space& space) {
 std::vector<unsigned int> parts_along(const MembraneCurve& membrane, const Space& space) {
     const MPI_Comm communicator = space.dofs.get_communicator();
     const auto processes = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    if (processes == 1) return std::vector<unsigned int>(space.dofs.get_triangulation().n_active_cells(), 0);
     const Places own = places_along(membrane, space);
     auto cells = gathered(own.cells, communicator);
     std::sort(cells.begin(), cells.end());
