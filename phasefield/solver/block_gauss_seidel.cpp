@@ -57,8 +57,8 @@ bool BlockGaussSeidel::has_factors() const {
     return std::all_of(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.system.has_factors(); });
 }
 
-SubdomainSystem::Index BlockGaussSeidel::shared_unknowns() const {
-    SubdomainSystem::Index sum = 0;
+CondensedSystem::Index BlockGaussSeidel::shared_unknowns() const {
+    CondensedSystem::Index sum = 0;
     for (const Block& block : blocks_) sum += block.system.shared_unknowns();
     return sum;
 }

@@ -38,7 +38,7 @@ class BlockGaussSeidel {
     void solve(const Space& space, Vector& solution);
     void apply_factors(const Space& space, Vector& solution);
     /// Of all blocks.
-    [[nodiscard]] SubdomainSystem::Index shared_unknowns() const;
+    [[nodiscard]] CondensedSystem::Index shared_unknowns() const;
 
   private:
     struct Block {

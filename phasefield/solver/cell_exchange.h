@@ -20,6 +20,8 @@ class CellExchange {
     [[nodiscard]] std::size_t own_size() const { return own_.total; }
     [[nodiscard]] std::size_t begin(std::size_t cell) const { return begin_[cell]; }
 
+    /// Whether there is but one process.
+    [[nodiscard]] bool all_stay() const { return own_.parts.size() == 1; }
     template <class Number>
     void hand_over(const std::vector<Number>& own, std::vector<Number>& assigned) const {
         exchange(own, own_, assigned, assigned_);

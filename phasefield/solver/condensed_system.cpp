@@ -28,7 +28,10 @@ dealii::FESystem<2> face_element(const Space& space, const std::vector<unsigned 
 }  // namespace
 
 CondensedSystem::CondensedSystem(MPI_Comm communicator, std::string name, std::vector<unsigned int> components)
-    : name_(std::move(name)), components_(std::move(components)), system_(communicator, name_) {}
+    : communicator_(communicator),
+      name_(std::move(name)),
+      components_(std::move(components)),
+      numbers_(std::in_place_type<Numbers<float>>, communicator, name_) {}
 
 void CondensedSystem::reinit(const Space& space, const std::vector<unsigned int>& process) {
     const auto& mesh = space.dofs.get_triangulation();
@@ -48,8 +51,8 @@ void CondensedSystem::reinit(const Space& space, const std::vector<unsigned int>
     n_inner_ = static_cast<unsigned int>(in_cell_.size()) - n_outer_;
     cells_.clear();
     positions_.assign(mesh.n_active_cells(), 0);
-    std::vector<SubdomainSystem::Index> all(space.element.n_dofs_per_cell()), indices(in_cell_.size()), outer(n_outer_);
-    std::vector<std::vector<SubdomainSystem::Index>> outer_unknowns, free_unknowns;
+    std::vector<Index> all(space.element.n_dofs_per_cell()), indices(in_cell_.size()), outer(n_outer_);
+    std::vector<std::vector<Index>> outer_unknowns;
     for (const auto& cell : space.dofs.active_cell_iterators()) {
         if (cell->is_artificial()) continue;
         cell->get_dof_indices(all);
@@ -60,31 +63,61 @@ void CondensedSystem::reinit(const Space& space, const std::vector<unsigned int>
                 constraints.add_line(outer[i]);
         if (!cell->is_locally_owned()) continue;
         positions_[cell->active_cell_index()] = cells_.size();
-        Elimination& kept = cells_.emplace_back();
+        Place& kept = cells_.emplace_back();
         kept.unknowns = indices;
         for (unsigned int i = 0; i < n_inner_; ++i)
             if (space.constraints.is_constrained(indices[n_outer_ + i])) kept.fixed.push_back(i);
-        kept.residual.reinit(n_inner_);
         outer_unknowns.push_back(outer);
     }
     constraints.close();
+    free_unknowns_.clear();
     for (std::size_t k = 0; k < cells_.size(); ++k)
-        free_unknowns.push_back(express_by_free(outer_unknowns[k], constraints, cells_[k].parts));
-    system_.reinit(free_unknowns, process, dofs.locally_owned_dofs());
-
-    inner_rows_.reinit(n_inner_, n_outer_ + n_inner_);
-    A_oi_.reinit(n_outer_, n_inner_);
-    S_.reinit(n_outer_, n_outer_);
-    outer_residual_.reinit(n_outer_);
+        free_unknowns_.push_back(express_by_free(outer_unknowns[k], constraints, cells_[k].parts));
+    process_ = process;
+    owned_ = dofs.locally_owned_dofs();
     outer_solution_.reinit(n_outer_);
-    inner_solution_.reinit(n_inner_);
+    allocate<float>();
 }
 
-std::vector<SubdomainSystem::Index> CondensedSystem::express_by_free(
-    const std::vector<SubdomainSystem::Index>& unknowns, const dealii::AffineConstraints<double>& constraints,
+template <class Real>
+void CondensedSystem::allocate() {
+    auto& numbers = numbers_.emplace<Numbers<Real>>(communicator_, name_);
+    numbers.system.reinit(free_unknowns_, process_, owned_);
+    numbers.cells.resize(cells_.size());
+    for (auto& cell : numbers.cells) cell.residual.reinit(n_inner_);
+    numbers.inner_rows.reinit(n_inner_, n_outer_ + n_inner_);
+    numbers.A_oi.reinit(n_outer_, n_inner_);
+    numbers.S.reinit(n_outer_, n_outer_);
+    numbers.outer.reinit(n_outer_);
+    numbers.inner.reinit(n_inner_);
+}
+
+void CondensedSystem::use(Precision wanted) {
+    if (wanted == precision()) return;
+    wanted == Precision::single ? allocate<float>() : allocate<double>();
+}
+
+Precision CondensedSystem::precision() const {
+    return std::holds_alternative<Numbers<float>>(numbers_) ? Precision::single : Precision::full;
+}
+
+void CondensedSystem::forget_factors() {
+    std::visit([](auto& numbers) { numbers.system.forget_factors(); }, numbers_);
+}
+
+bool CondensedSystem::has_factors() const {
+    return std::visit([](const auto& numbers) { return numbers.system.has_factors(); }, numbers_);
+}
+
+CondensedSystem::Index CondensedSystem::shared_unknowns() const {
+    return std::visit([](const auto& numbers) { return numbers.system.shared_unknowns(); }, numbers_);
+}
+
+std::vector<CondensedSystem::Index> CondensedSystem::express_by_free(
+    const std::vector<Index>& unknowns, const dealii::AffineConstraints<double>& constraints,
     std::vector<Part>& parts) {
-    std::vector<SubdomainSystem::Index> out;
-    const auto add = [&](unsigned int outer, SubdomainSystem::Index free, double weight) {
+    std::vector<Index> out;
+    const auto add = [&](unsigned int outer, Index free, double weight) {
         const auto known = std::find(out.begin(), out.end(), free);
         parts.push_back({outer, static_cast<unsigned int>(known - out.begin()), weight});
         if (known == out.end()) out.push_back(free);
@@ -98,98 +131,124 @@ std::vector<SubdomainSystem::Index> CondensedSystem::express_by_free(
     return out;
 }
 
-void CondensedSystem::eliminate(const dealii::FullMatrix<double>& matrix, Elimination& cell) {
+template <class Real>
+void CondensedSystem::eliminate(const dealii::FullMatrix<double>& matrix, const Place& place, Numbers<Real>& numbers,
+                                typename Numbers<Real>::Elimination& cell) const {
     const unsigned int m = n_outer_, n = n_inner_;
     const auto A = [&](unsigned int i, unsigned int k) { return matrix(in_cell_[i], in_cell_[k]); };
-    Dense A_ii(n, n);
+    auto &inner_rows = numbers.inner_rows, &A_oi = numbers.A_oi, &S = numbers.S;
+    typename Numbers<Real>::Dense A_ii(n, n);
     for (unsigned int i = 0; i < n; ++i) {
         // The rows' sizes differ by many powers of ten away from the membrane, and pivoting compares them.
         double largest = 0;
         for (unsigned int k = 0; k < n; ++k) largest = std::max(largest, std::abs(A(m + i, m + k)));
-        const bool fixed = std::binary_search(cell.fixed.begin(), cell.fixed.end(), i);
+        const bool fixed = std::binary_search(place.fixed.begin(), place.fixed.end(), i);
         const double scale = fixed || largest == 0 ? 1 : 1 / largest;
-        for (unsigned int k = 0; k < n; ++k) A_ii(i, k) = fixed ? static_cast<double>(i == k) : scale * A(m + i, m + k);
-        for (unsigned int k = 0; k < m; ++k) inner_rows_(i, k) = fixed ? 0 : -scale * A(m + i, k);
-        for (unsigned int k = 0; k < n; ++k) inner_rows_(i, m + k) = i == k ? scale : 0;
-        for (unsigned int k = 0; k < m; ++k) A_oi_(k, i) = A(k, m + i);
+        for (unsigned int k = 0; k < n; ++k)
+            A_ii(i, k) = static_cast<Real>(fixed ? static_cast<double>(i == k) : scale * A(m + i, m + k));
+        for (unsigned int k = 0; k < m; ++k) inner_rows(i, k) = static_cast<Real>(fixed ? 0 : -scale * A(m + i, k));
+        for (unsigned int k = 0; k < n; ++k) inner_rows(i, m + k) = static_cast<Real>(i == k ? scale : 0);
+        for (unsigned int k = 0; k < m; ++k) A_oi(k, i) = static_cast<Real>(A(k, m + i));
     }
     cell.undetermined = false;
     try {
         A_ii.compute_lu_factorization();
-        A_ii.solve(inner_rows_);
+        A_ii.solve(inner_rows);
     } catch (const dealii::LACExceptions::ExcSingular&) {
         cell.undetermined = true;
-        inner_rows_ = 0;
+        inner_rows = 0;
     }
     cell.to_inner.reinit(n, m);
     cell.inverse.reinit(n, n);
     cell.from_inner.reinit(m, n);
     for (unsigned int i = 0; i < n; ++i) {
-        for (unsigned int k = 0; k < m; ++k) cell.to_inner(i, k) = inner_rows_(i, k);
-        for (unsigned int k = 0; k < n; ++k) cell.inverse(i, k) = inner_rows_(i, m + k);
+        for (unsigned int k = 0; k < m; ++k) cell.to_inner(i, k) = inner_rows(i, k);
+        for (unsigned int k = 0; k < n; ++k) cell.inverse(i, k) = inner_rows(i, m + k);
     }
-    A_oi_.mmult(cell.from_inner, cell.inverse);
+    A_oi.mmult(cell.from_inner, cell.inverse);
     cell.from_inner *= -1;
     for (unsigned int i = 0; i < m; ++i)
-        for (unsigned int k = 0; k < m; ++k) S_(i, k) = A(i, k);
-    A_oi_.mmult(S_, cell.to_inner, true);
-}
-
-void CondensedSystem::condense(const dealii::Vector<double>& right_hand_side, Elimination& cell) {
-    for (unsigned int i = 0; i < n_inner_; ++i) cell.residual(i) = right_hand_side(in_cell_[n_outer_ + i]);
-    for (const unsigned int i : cell.fixed) cell.residual(i) = 0;
-    for (unsigned int i = 0; i < n_outer_; ++i) outer_residual_(i) = right_hand_side(in_cell_[i]);
-    cell.from_inner.vmult_add(outer_residual_, cell.residual);
+        for (unsigned int k = 0; k < m; ++k) S(i, k) = static_cast<Real>(A(i, k));
+    A_oi.mmult(S, cell.to_inner, true);
 }
 
 void CondensedSystem::set(const Cell& cell, const dealii::FullMatrix<double>& matrix) {
     const std::size_t own = position(cell);
-    Elimination& kept = cells_[own];
-    eliminate(matrix, kept);
-    free_matrix_.reinit(system_.unknowns(own), system_.unknowns(own));
-    for (const Part& row : kept.parts)
-        for (const Part& column : kept.parts)
-            free_matrix_(row.free, column.free) += row.weight * S_(row.outer, column.outer) * column.weight;
-    system_.set(own, free_matrix_);
+    const Place& place = cells_[own];
+    std::visit(
+        [&]<class Real>(Numbers<Real>& numbers) {
+            eliminate(matrix, place, numbers, numbers.cells[own]);
+            const std::size_t n = numbers.system.unknowns(own);
+            Real* matrix_of_free = numbers.system.matrix(own);
+            std::fill(matrix_of_free, matrix_of_free + n * n, Real{0});
+            for (const Part& column : place.parts)
+                for (const Part& row : place.parts)
+                    matrix_of_free[column.free * n + row.free] +=
+                        static_cast<Real>(row.weight * column.weight) * numbers.S(row.outer, column.outer);
+        },
+        numbers_);
 }
 
 void CondensedSystem::set(const Cell& cell, const dealii::Vector<double>& right_hand_side) {
     const std::size_t own = position(cell);
-    Elimination& kept = cells_[own];
-    condense(right_hand_side, kept);
-    free_residual_.reinit(system_.unknowns(own));
-    for (const Part& part : kept.parts) free_residual_(part.free) += part.weight * outer_residual_(part.outer);
-    system_.set(own, free_residual_);
+    const Place& place = cells_[own];
+    std::visit(
+        [&]<class Real>(Numbers<Real>& numbers) {
+            auto& kept = numbers.cells[own];
+            for (unsigned int i = 0; i < n_inner_; ++i)
+                kept.residual(i) = static_cast<Real>(right_hand_side(in_cell_[n_outer_ + i]));
+            for (const unsigned int i : place.fixed) kept.residual(i) = 0;
+            kept.from_inner.vmult(numbers.outer, kept.residual);
+            free_residual_.reinit(numbers.system.unknowns(own));
+            for (const Part& part : place.parts)
+                free_residual_(part.free) += part.weight * (right_hand_side(in_cell_[part.outer]) +
+                                                            static_cast<double>(numbers.outer(part.outer)));
+            numbers.system.set(own, free_residual_);
+        },
+        numbers_);
 }
 
 void CondensedSystem::solve(const Space& space, Vector& solution) {
-    const bool undetermined =
-        std::any_of(cells_.begin(), cells_.end(), [](const Elimination& cell) { return cell.undetermined; });
-    if (dealii::Utilities::MPI::max(undetermined ? 1 : 0, space.dofs.get_communicator()) == 1)
-        throw SolverError("linear-solver", "the unknowns inside of a cell of the " + name_ + " system are undetermined",
-                          "use a smaller time.max_step or phase_field.cell_size");
-    system_.solve();
+    std::visit(
+        [&](auto& numbers) {
+            const bool undetermined = std::any_of(numbers.cells.begin(), numbers.cells.end(),
+                                                  [](const auto& cell) { return cell.undetermined; });
+            if (dealii::Utilities::MPI::max(undetermined ? 1 : 0, communicator_) == 1)
+                throw SolverError("linear-solver",
+                                  "the unknowns inside of a cell of the " + name_ + " system are undetermined",
+                                  "use a smaller time.max_step or phase_field.cell_size");
+            numbers.system.solve();
+        },
+        numbers_);
     expand(space, solution);
 }
 
 void CondensedSystem::apply_factors(const Space& space, Vector& solution) {
-    system_.apply_factors();
+    std::visit([](auto& numbers) { numbers.system.apply_factors(); }, numbers_);
     expand(space, solution);
 }
 
 void CondensedSystem::expand(const Space& space, Vector& solution) {
     solution.zero_out_ghost_values();
-    for (std::size_t position = 0; position < cells_.size(); ++position) {
-        const Elimination& cell = cells_[position];
-        outer_solution_ = 0;
-        for (const Part& part : cell.parts)
-            outer_solution_(part.outer) += part.weight * system_.values(position)[part.free];
-        cell.inverse.vmult(inner_solution_, cell.residual);
-        cell.to_inner.vmult_add(inner_solution_, outer_solution_);
-        for (unsigned int i = 0; i < n_outer_; ++i)
-            if (space.owned.is_element(cell.unknowns[i])) solution(cell.unknowns[i]) = outer_solution_(i);
-        for (unsigned int i = 0; i < n_inner_; ++i) solution(cell.unknowns[n_outer_ + i]) = inner_solution_(i);
-    }
+    std::visit(
+        [&]<class Real>(Numbers<Real>& numbers) {
+            dealii::Vector<double>& outer = outer_solution_;
+            for (std::size_t own = 0; own < cells_.size(); ++own) {
+                const Place& place = cells_[own];
+                auto& kept = numbers.cells[own];
+                outer = 0;
+                for (const Part& part : place.parts)
+                    outer(part.outer) += part.weight * numbers.system.values(own)[part.free];
+                numbers.outer = outer;
+                kept.inverse.vmult(numbers.inner, kept.residual);
+                kept.to_inner.vmult_add(numbers.inner, numbers.outer);
+                for (unsigned int i = 0; i < n_outer_; ++i)
+                    if (space.owned.is_element(place.unknowns[i])) solution(place.unknowns[i]) = outer(i);
+                for (unsigned int i = 0; i < n_inner_; ++i)
+                    solution(place.unknowns[n_outer_ + i]) = static_cast<double>(numbers.inner(i));
+            }
+        },
+        numbers_);
     solution.update_ghost_values();
 }
 

@@ -3,11 +3,15 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "phasefield/solver/subdomain_system.h"
 
 namespace endoflow::phasefield {
+
+/// Of matrices and factors.
+enum class Precision { single, full };
 
 /// A linear system for some components of a space, from which the unknowns inside of the cells (with cubic elements
 /// more than two fifths of all) are eliminated cell by cell, before the rest goes to the sparse solver: static
@@ -19,12 +23,13 @@ namespace endoflow::phasefield {
 class CondensedSystem {
   public:
     using Cell = dealii::DoFHandler<2>::active_cell_iterator;
+    using Index = dealii::types::global_dof_index;
 
     /// `components` ascend.
     CondensedSystem(MPI_Comm communicator, std::string name, std::vector<unsigned int> components);
 
-    /// Allocates for the present mesh; `process`: the one that eliminates what an own cell has on its vertices and
-    /// faces.
+    /// Allocates for the present mesh, in single precision; `process`: the one that eliminates what an own cell has on
+    /// its vertices and faces.
     void reinit(const Space& space, const std::vector<unsigned int>& process);
     /// A cell's n × n matrix, of the whole space and in the cell's numbering; read are the components' rows and
     /// columns. Set those of all own cells, then solve().
@@ -32,15 +37,16 @@ class CondensedSystem {
     /// A cell's n right-hand sides. After its matrix. Set those of all own cells, then solve() or apply_factors().
     void set(const Cell& cell, const dealii::Vector<double>& right_hand_side);
 
+    /// Of the next factors. Where that changes, those there are are forgotten.
+    void use(Precision precision);
+    [[nodiscard]] Precision precision() const;
     /// As of SubdomainSystem, with its errors, also when the block of a cell's inner unknowns is singular; the
     /// components of `solution` are set and all its ghost values updated.
-    void use(Precision precision) { system_.use(precision); }
-    [[nodiscard]] Precision precision() const { return system_.precision(); }
-    void forget_factors() { system_.forget_factors(); }
-    [[nodiscard]] bool has_factors() const { return system_.has_factors(); }
+    void forget_factors();
+    [[nodiscard]] bool has_factors() const;
     void solve(const Space& space, Vector& solution);
     void apply_factors(const Space& space, Vector& solution);
-    [[nodiscard]] SubdomainSystem::Index shared_unknowns() const { return system_.shared_unknowns(); }
+    [[nodiscard]] Index shared_unknowns() const;
 
     [[nodiscard]] const std::vector<unsigned int>& components() const { return components_; }
     /// Their unknowns in a cell's numbering.
@@ -50,41 +56,59 @@ class CondensedSystem {
     [[nodiscard]] std::size_t position(const Cell& cell) const { return positions_[cell->active_cell_index()]; }
 
   private:
-    using Dense = dealii::LAPACKFullMatrix<double>;
-
     /// An outer unknown is a sum over free ones, the system's: itself, or where it hangs those it hangs on.
     struct Part {
         unsigned int outer, free;
         double weight;
     };
-    /// What is kept of a cell.
-    struct Elimination {
-        std::vector<SubdomainSystem::Index> unknowns;  // in the space
-        std::vector<unsigned int> fixed;               // of the inner ones, by constraints
-        std::vector<Part> parts;                       // of the outer ones
-        bool undetermined = false;                     // the inner ones
-        Dense inverse, to_inner, from_inner;           // A_ii⁻¹, −A_ii⁻¹ A_io, −A_oi A_ii⁻¹
-        dealii::Vector<double> residual;               // r_i
+    /// An own cell.
+    struct Place {
+        std::vector<Index> unknowns;      // in the space
+        std::vector<unsigned int> fixed;  // of the inner ones, by constraints
+        std::vector<Part> parts;          // of the outer ones
+    };
+    /// All numbers of one precision.
+    template <class Real>
+    struct Numbers {
+        using Dense = dealii::LAPACKFullMatrix<Real>;
+        /// What is kept of a cell.
+        struct Elimination {
+            bool undetermined = false;            // the inner unknowns
+            Dense inverse, to_inner, from_inner;  // A_ii⁻¹, −A_ii⁻¹ A_io, −A_oi A_ii⁻¹
+            dealii::Vector<Real> residual;        // r_i, which vanishes with that of the whole
+        };
+
+        Numbers(MPI_Comm communicator, const std::string& name) : system(communicator, name) {}
+
+        SubdomainSystem<Real> system;
+        std::vector<Elimination> cells;
+        Dense inner_rows, A_oi, S;
+        dealii::Vector<Real> outer, inner;
     };
 
     /// The free unknowns behind a cell's outer ones.
-    static std::vector<SubdomainSystem::Index> express_by_free(const std::vector<SubdomainSystem::Index>& unknowns,
-                                                               const dealii::AffineConstraints<double>& constraints,
-                                                               std::vector<Part>& parts);
-    void eliminate(const dealii::FullMatrix<double>& matrix, Elimination& cell);
-    void condense(const dealii::Vector<double>& right_hand_side, Elimination& cell);
+    static std::vector<Index> express_by_free(const std::vector<Index>& unknowns,
+                                              const dealii::AffineConstraints<double>& constraints,
+                                              std::vector<Part>& parts);
+    template <class Real>
+    void allocate();
+    template <class Real>
+    void eliminate(const dealii::FullMatrix<double>& matrix, const Place& place, Numbers<Real>& numbers,
+                   typename Numbers<Real>::Elimination& cell) const;
     void expand(const Space& space, Vector& solution);
 
+    MPI_Comm communicator_;
     std::string name_;
     std::vector<unsigned int> components_;
-    SubdomainSystem system_;
     std::vector<unsigned int> in_cell_;       // the components' unknowns in a cell's numbering, of which
     unsigned int n_outer_ = 0, n_inner_ = 0;  // the outer ones come first
-    std::vector<Elimination> cells_;          // own ones
-    std::vector<std::size_t> positions_;      // in cells_, by the active cell's index
-    Dense inner_rows_, A_oi_, S_;
-    dealii::FullMatrix<double> free_matrix_;
-    dealii::Vector<double> outer_residual_, free_residual_, outer_solution_, inner_solution_;
+    std::vector<Place> cells_;
+    std::vector<std::size_t> positions_;             // in cells_, by the active cell's index
+    std::vector<std::vector<Index>> free_unknowns_;  // of the cells
+    std::vector<unsigned int> process_;
+    dealii::IndexSet owned_;
+    std::variant<Numbers<float>, Numbers<double>> numbers_;
+    dealii::Vector<double> free_residual_, outer_solution_;
 };
 
 }  // namespace endoflow::phasefield

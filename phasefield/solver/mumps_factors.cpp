@@ -27,6 +27,10 @@ void call(DMUMPS_STRUC_C& data) {
     dmumps_c(&data);
 }
 
+/// Of one precision.
+template <class Real>
+using MumpsData = std::conditional_t<std::is_same_v<Real, float>, SMUMPS_STRUC_C, DMUMPS_STRUC_C>;
+
 template <class Data>
 struct Handle {
     Handle() {
@@ -52,32 +56,29 @@ struct Handle {
     Data id{};
 };
 
-template <class Data>
-class FactorsOf final : public MumpsFactors {
+template <class Real>
+class FactorsOf final : public MumpsFactors<Real> {
   public:
-    using Real = std::remove_pointer_t<decltype(Data::a)>;
-
     FactorsOf(const CellMatrices& cells, unsigned int kept);
 
-    bool factorise(const std::vector<double>& entries, dealii::FullMatrix<double>& left) override;
+    bool factorise(std::vector<Real>& entries, dealii::FullMatrix<double>& left) override;
     bool reduce(const dealii::Vector<double>& right_hand_side, dealii::Vector<double>& reduced) override;
     bool expand(const dealii::Vector<double>& kept, dealii::Vector<double>& solution) override;
 
   private:
     /// The sizes of rows and columns differ by many powers of ten, and pivoting compares them.
-    void scale(const std::vector<double>& entries);
+    void scale(std::vector<Real>& entries);
 
-    Handle<Data> handle_;
+    Handle<MumpsData<Real>> handle_;
     const CellMatrices* cells_;
     unsigned int size_, kept_;
     std::vector<double> row_scale_, column_scale_;
     std::vector<int> kept_unknowns_;  // from 1
-    std::vector<Real> values_;        // entries of the scaled matrix
     std::vector<Real> left_, reduced_, work_;
 };
 
-template <class Data>
-FactorsOf<Data>::FactorsOf(const CellMatrices& cells, unsigned int kept)
+template <class Real>
+FactorsOf<Real>::FactorsOf(const CellMatrices& cells, unsigned int kept)
     : cells_(&cells),
       size_(cells.size),
       kept_(kept),
@@ -87,16 +88,12 @@ FactorsOf<Data>::FactorsOf(const CellMatrices& cells, unsigned int kept)
       left_(static_cast<std::size_t>(kept) * kept),
       reduced_(kept),
       work_(size_) {
-    std::size_t entries = 0;
-    cells.for_each([&](const int* /*unknowns*/, std::size_t n, std::size_t begin) { entries = begin + n * n; });
-    values_.resize(entries);
     std::iota(kept_unknowns_.begin(), kept_unknowns_.end(), static_cast<int>(size_ - kept) + 1);
     auto& id = handle_.id;
     id.n = static_cast<MUMPS_INT>(size_);
     id.nelt = static_cast<MUMPS_INT>(cells.cells());
     id.eltptr = const_cast<MUMPS_INT*>(cells.begin.data());
     id.eltvar = const_cast<MUMPS_INT*>(cells.unknowns.data());
-    id.a_elt = values_.data();
     id.rhs = work_.data();
     handle_.control(5) = 1;  // a sum of cells' matrices
     handle_.control(7) = static_cast<int>(MumpsOrdering::approximate_minimum_fill);
@@ -113,10 +110,10 @@ FactorsOf<Data>::FactorsOf(const CellMatrices& cells, unsigned int kept)
     if (size_ > kept_) handle_.run(job_order);  // after an error factorise() fails
 }
 
-template <class Data>
-void FactorsOf<Data>::scale(const std::vector<double>& entries) {
+template <class Real>
+void FactorsOf<Real>::scale(std::vector<Real>& entries) {
     const auto invert = [](double largest) { return largest > 0 ? 1 / largest : 1; };
-    std::vector<double> largest_of_row;
+    std::vector<Real> largest_of_row;
     std::fill(row_scale_.begin(), row_scale_.end(), 0);
     cells_->for_each([&](const int* unknowns, std::size_t n, std::size_t begin) {
         largest_of_row.assign(n, 0);
@@ -125,7 +122,7 @@ void FactorsOf<Data>::scale(const std::vector<double>& entries) {
                 largest_of_row[i] = std::max(largest_of_row[i], std::abs(entries[begin + k * n + i]));
         for (std::size_t i = 0; i < n; ++i) {
             auto& largest = row_scale_[static_cast<std::size_t>(unknowns[i] - 1)];
-            largest = std::max(largest, largest_of_row[i]);
+            largest = std::max(largest, static_cast<double>(largest_of_row[i]));
         }
     });
     std::transform(row_scale_.begin(), row_scale_.end(), row_scale_.begin(), invert);
@@ -140,7 +137,8 @@ void FactorsOf<Data>::scale(const std::vector<double>& entries) {
         for (std::size_t k = 0; k < n; ++k) {
             auto& largest = column_scale_[static_cast<std::size_t>(unknowns[k] - 1)];
             for (std::size_t i = 0; i < n; ++i)
-                largest = std::max(largest, std::abs(entries[begin + k * n + i]) * scale_of_row[i]);
+                largest =
+                    std::max(largest, static_cast<double>(std::abs(entries[begin + k * n + i])) * scale_of_row[i]);
         }
     });
     std::transform(column_scale_.begin(), column_scale_.end(), column_scale_.begin(), invert);
@@ -148,26 +146,28 @@ void FactorsOf<Data>::scale(const std::vector<double>& entries) {
         take_rows(unknowns, n);
         for (std::size_t k = 0; k < n; ++k) {
             const double of_column = column_scale_[static_cast<std::size_t>(unknowns[k] - 1)];
-            for (std::size_t i = 0; i < n; ++i)
-                values_[begin + k * n + i] =
-                    static_cast<Real>(entries[begin + k * n + i] * scale_of_row[i] * of_column);
+            for (std::size_t i = 0; i < n; ++i) {
+                Real& entry = entries[begin + k * n + i];
+                entry = static_cast<Real>(static_cast<double>(entry) * scale_of_row[i] * of_column);
+            }
         }
     });
 }
 
-template <class Data>
-bool FactorsOf<Data>::factorise(const std::vector<double>& entries, dealii::FullMatrix<double>& left) {
+template <class Real>
+bool FactorsOf<Real>::factorise(std::vector<Real>& entries, dealii::FullMatrix<double>& left) {
     left.reinit(kept_, kept_);
     if (size_ == kept_) {  // MUMPS wants something to eliminate
         cells_->for_each([&](const int* unknowns, std::size_t n, std::size_t begin) {
             for (std::size_t k = 0; k < n; ++k)
                 for (std::size_t i = 0; i < n; ++i)
                     left(static_cast<unsigned int>(unknowns[i] - 1), static_cast<unsigned int>(unknowns[k] - 1)) +=
-                        entries[begin + k * n + i];
+                        static_cast<double>(entries[begin + k * n + i]);
         });
         return true;
     }
     scale(entries);
+    handle_.id.a_elt = entries.data();
 
     int status = handle_.run(job_factorise);
     while ((status == -8 || status == -9) && handle_.control(14) < most_spare_workspace) {
@@ -184,8 +184,8 @@ bool FactorsOf<Data>::factorise(const std::vector<double>& entries, dealii::Full
     return true;
 }
 
-template <class Data>
-bool FactorsOf<Data>::reduce(const dealii::Vector<double>& right_hand_side, dealii::Vector<double>& reduced) {
+template <class Real>
+bool FactorsOf<Real>::reduce(const dealii::Vector<double>& right_hand_side, dealii::Vector<double>& reduced) {
     if (size_ == kept_) {
         reduced = right_hand_side;
         return true;
@@ -205,8 +205,8 @@ bool FactorsOf<Data>::reduce(const dealii::Vector<double>& right_hand_side, deal
     return status >= 0;
 }
 
-template <class Data>
-bool FactorsOf<Data>::expand(const dealii::Vector<double>& kept, dealii::Vector<double>& solution) {
+template <class Real>
+bool FactorsOf<Real>::expand(const dealii::Vector<double>& kept, dealii::Vector<double>& solution) {
     if (size_ == kept_) {
         solution = kept;
         return true;
@@ -223,9 +223,12 @@ bool FactorsOf<Data>::expand(const dealii::Vector<double>& kept, dealii::Vector<
 
 }  // namespace
 
-std::unique_ptr<MumpsFactors> mumps_factors(const CellMatrices& cells, unsigned int kept, Precision precision) {
-    if (precision == Precision::single) return std::make_unique<FactorsOf<SMUMPS_STRUC_C>>(cells, kept);
-    return std::make_unique<FactorsOf<DMUMPS_STRUC_C>>(cells, kept);
+template <class Real>
+std::unique_ptr<MumpsFactors<Real>> mumps_factors(const CellMatrices& cells, unsigned int kept) {
+    return std::make_unique<FactorsOf<Real>>(cells, kept);
 }
+
+template std::unique_ptr<MumpsFactors<float>> mumps_factors(const CellMatrices&, unsigned int);
+template std::unique_ptr<MumpsFactors<double>> mumps_factors(const CellMatrices&, unsigned int);
 
 }  // namespace endoflow::phasefield

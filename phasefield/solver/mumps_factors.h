@@ -9,9 +9,6 @@
 
 namespace endoflow::phasefield {
 
-/// Of the factors.
-enum class Precision { single, full };
-
 /// Where the dense matrices of cells stand in the matrix that is their sum. Their entries follow each other cell by
 /// cell, column by column.
 struct CellMatrices {
@@ -37,6 +34,7 @@ struct CellMatrices {
 ///
 /// Those of single precision, half as large and sooner made, are for iterations that find the residual in full
 /// precision: Newton's method, or iterative refinement (Buttari et al., ACM TOMS 34(4), 2008).
+template <class Real>
 class MumpsFactors {
   public:
     MumpsFactors() = default;
@@ -44,9 +42,9 @@ class MumpsFactors {
     MumpsFactors(const MumpsFactors&) = delete;
     MumpsFactors& operator=(const MumpsFactors&) = delete;
 
-    /// What is left, kept × kept, of the matrix with these entries. This and the following are false when MUMPS reports
-    /// an error: a singular matrix, or not enough memory.
-    [[nodiscard]] virtual bool factorise(const std::vector<double>& entries, dealii::FullMatrix<double>& left) = 0;
+    /// What is left, kept × kept, of the matrix with these entries, which are scaled for it. This and the following are
+    /// false when MUMPS reports an error: a singular matrix, or not enough memory.
+    [[nodiscard]] virtual bool factorise(std::vector<Real>& entries, dealii::FullMatrix<double>& left) = 0;
     /// The right-hand side of the kept unknowns, r_k − A_ki A_ii⁻¹ r_i. Remembers r_i for the next expand().
     [[nodiscard]] virtual bool reduce(const dealii::Vector<double>& right_hand_side,
                                       dealii::Vector<double>& reduced) = 0;
@@ -54,7 +52,8 @@ class MumpsFactors {
     [[nodiscard]] virtual bool expand(const dealii::Vector<double>& kept, dealii::Vector<double>& solution) = 0;
 };
 
-/// Orders the unknowns. `cells` must stay where it is.
-std::unique_ptr<MumpsFactors> mumps_factors(const CellMatrices& cells, unsigned int kept, Precision precision);
+/// Orders the unknowns. `cells` must stay where it is. Real: float or double.
+template <class Real>
+std::unique_ptr<MumpsFactors<Real>> mumps_factors(const CellMatrices& cells, unsigned int kept);
 
 }  // namespace endoflow::phasefield

@@ -10,15 +10,17 @@
 
 namespace endoflow::phasefield {
 
-SubdomainSystem::SubdomainSystem(MPI_Comm communicator, std::string name)
+template <class Real>
+SubdomainSystem<Real>::SubdomainSystem(MPI_Comm communicator, std::string name)
     : communicator_(communicator),
       name_(std::move(name)),
       rows_(communicator),
       matrices_(communicator),
       interface_(communicator, name_ + " interface") {}
 
-void SubdomainSystem::reinit(const std::vector<std::vector<Index>>& cells, const std::vector<unsigned int>& process,
-                             const dealii::IndexSet& owned) {
+template <class Real>
+void SubdomainSystem<Real>::reinit(const std::vector<std::vector<Index>>& cells,
+                                   const std::vector<unsigned int>& process, const dealii::IndexSet& owned) {
     factors_.reset();  // before anything new: they and the matrices are most of a run's memory
     own_matrices_ = assigned_matrices_ = {};
     sizes_.clear();
@@ -48,21 +50,12 @@ void SubdomainSystem::reinit(const std::vector<std::vector<Index>>& cells, const
     right_hand_side_.reinit(cells_.size);
     solution_.reinit(cells_.size);
     shared_values_.reinit(shared_);
-    precision_ = Precision::single;
-    factors_ = mumps_factors(cells_, shared_, precision_);
+    factors_ = mumps_factors<Real>(cells_, shared_);
     factors_valid_ = false;
 }
 
-void SubdomainSystem::use(Precision precision) {
-    if (precision == precision_) return;
-    precision_ = precision;
-    factors_valid_ = false;
-    if (!factors_) return;
-    factors_.reset();
-    factors_ = mumps_factors(cells_, shared_, precision_);
-}
-
-void SubdomainSystem::number(const std::vector<Index>& unknowns, const dealii::IndexSet& owned) {
+template <class Real>
+void SubdomainSystem<Real>::number(const std::vector<Index>& unknowns, const dealii::IndexSet& owned) {
     dealii::IndexSet here(owned.size());
     {
         std::vector<Index> sorted = unknowns;
@@ -103,48 +96,49 @@ void SubdomainSystem::number(const std::vector<Index>& unknowns, const dealii::I
     for (const Index i : unknowns) cells_.unknowns.push_back(own_number[here.index_within_set(i)]);
 }
 
-void SubdomainSystem::set(std::size_t cell, const dealii::FullMatrix<double>& matrix) {
-    double* entry = &own_matrices_[matrices_.begin(cell)];
-    for (unsigned int k = 0; k < matrix.n(); ++k)
-        for (unsigned int i = 0; i < matrix.m(); ++i) *entry++ = matrix(i, k);
-}
-
-void SubdomainSystem::set(std::size_t cell, const dealii::Vector<double>& right_hand_side) {
+template <class Real>
+void SubdomainSystem<Real>::set(std::size_t cell, const dealii::Vector<double>& right_hand_side) {
     std::copy(right_hand_side.begin(), right_hand_side.end(), &own_rows_[rows_.begin(cell)]);
 }
 
-bool SubdomainSystem::everywhere(bool own) const {
+template <class Real>
+bool SubdomainSystem<Real>::everywhere(bool own) const {
     return dealii::Utilities::MPI::min(own ? 1 : 0, communicator_) == 1;
 }
 
-void SubdomainSystem::require_finite(const dealii::Vector<double>& vector, const char* what) const {
+template <class Real>
+void SubdomainSystem<Real>::require_finite(const dealii::Vector<double>& vector, const char* what) const {
     if (!everywhere(vector.size() == 0 || std::isfinite(vector.l2_norm())))
         throw SolverError("not-a-number", std::string("the ") + what + " of the " + name_ + " system is not finite",
                           "use a smaller time.max_step or phase_field.cell_size");
 }
 
-void SubdomainSystem::require_solved(bool own) const {
+template <class Real>
+void SubdomainSystem<Real>::require_solved(bool own) const {
     if (!everywhere(own))
         throw SolverError("linear-solver", "MUMPS could not solve the " + name_ + " system",
                           "use a smaller time.max_step or more memory");
 }
 
-void SubdomainSystem::factorise() {
+template <class Real>
+void SubdomainSystem<Real>::factorise() {
     factors_valid_ = false;
     dealii::FullMatrix<double> left;
-    matrices_.hand_over(own_matrices_, assigned_matrices_);
-    require_solved(factors_->factorise(assigned_matrices_, left));
+    if (!matrices_.all_stay()) matrices_.hand_over(own_matrices_, assigned_matrices_);
+    require_solved(factors_->factorise(matrices_.all_stay() ? own_matrices_ : assigned_matrices_, left));
     require_solved(interface_.factorise(left));
 }
 
-void SubdomainSystem::sum_right_hand_sides() {
+template <class Real>
+void SubdomainSystem<Real>::sum_right_hand_sides() {
     rows_.hand_over(own_rows_, assigned_rows_);
     right_hand_side_ = 0;
     for (std::size_t k = 0; k < assigned_rows_.size(); ++k) right_hand_side_(in_sum(k)) += assigned_rows_[k];
     require_finite(right_hand_side_, "residual");
 }
 
-void SubdomainSystem::substitute() {
+template <class Real>
+void SubdomainSystem<Real>::substitute() {
     const bool reduced = factors_->reduce(right_hand_side_, shared_values_);
     interface_.solve(shared_values_);
     const bool expanded = factors_->expand(shared_values_, solution_);
@@ -154,16 +148,21 @@ void SubdomainSystem::substitute() {
     rows_.give_back(assigned_rows_, own_rows_);
 }
 
-void SubdomainSystem::solve() {
+template <class Real>
+void SubdomainSystem<Real>::solve() {
     sum_right_hand_sides();
     factorise();
     substitute();
     factors_valid_ = true;
 }
 
-void SubdomainSystem::apply_factors() {
+template <class Real>
+void SubdomainSystem<Real>::apply_factors() {
     sum_right_hand_sides();
     substitute();
 }
+
+template class SubdomainSystem<float>;
+template class SubdomainSystem<double>;
 
 }  // namespace endoflow::phasefield

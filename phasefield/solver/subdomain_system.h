@@ -15,7 +15,9 @@ namespace endoflow::phasefield {
 /// A linear system whose matrix is the sum of dense ones of cells. Each cell is assigned to a process, which need not
 /// be the one that computes it. Unknowns of the cells of one process alone are eliminated there, by a factorisation
 /// that takes no communication. What is left, the unknowns that processes share, is a system of its own for all of
-/// them. The factors are used until they are made anew.
+/// them. The factors are used until they are made anew. Matrices and factors are of Real, float or double, the rest
+/// of double precision.
+template <class Real>
 class SubdomainSystem {
   public:
     using Index = dealii::types::global_dof_index;
@@ -26,14 +28,11 @@ class SubdomainSystem {
     /// that this process owns.
     void reinit(const std::vector<std::vector<Index>>& cells, const std::vector<unsigned int>& process,
                 const dealii::IndexSet& owned);
-    /// Set those of all own cells, then solve().
-    void set(std::size_t cell, const dealii::FullMatrix<double>& matrix);
+    /// A cell's n × n matrix, column by column. Set those of all own cells, then solve().
+    [[nodiscard]] Real* matrix(std::size_t cell) { return &own_matrices_[matrices_.begin(cell)]; }
     /// Set those of all own cells, then solve() or apply_factors().
     void set(std::size_t cell, const dealii::Vector<double>& right_hand_side);
 
-    /// Of the next factors; single at first.
-    void use(Precision precision);
-    [[nodiscard]] Precision precision() const { return precision_; }
     void forget_factors() { factors_valid_ = false; }
     [[nodiscard]] bool has_factors() const { return factors_valid_; }
     /// New factors, and the solution of all own cells. Collective, with the same errors on all processes.
@@ -68,13 +67,12 @@ class SubdomainSystem {
     std::string name_;
     std::vector<std::size_t> sizes_;  // unknowns of own cells
     CellExchange rows_, matrices_;
-    std::vector<double> own_rows_, own_matrices_;            // of own cells: right-hand sides, then solutions
-    std::vector<double> assigned_rows_, assigned_matrices_;  // of those that this process eliminates
+    std::vector<double> own_rows_, assigned_rows_;        // right-hand sides, then solutions
+    std::vector<Real> own_matrices_, assigned_matrices_;  // of own cells, and of those that this process eliminates
     CellMatrices cells_;
     unsigned int shared_ = 0;  // the last of cells_.size unknowns are other processes', too
     dealii::Vector<double> right_hand_side_, solution_, shared_values_;
-    Precision precision_ = Precision::single;
-    std::unique_ptr<MumpsFactors> factors_;
+    std::unique_ptr<MumpsFactors<Real>> factors_;
     InterfaceSystem interface_;
     bool factors_valid_ = false;
 };

@@ -107,7 +107,7 @@ class CellEquations {
     }
 
     const dealii::QGauss<2> quadrature;
-    LocalSystem local;
+    BasicLocalSystem<float> local;
 
   private:
     template <class Number>
@@ -135,12 +135,12 @@ void assemble_cells(const StepProblem& problem, const std::vector<PatternEntry>&
     const Space& space = problem.space;
     CellEquations equations(problem, iterate);
     RimTension rim(space, problem.numbers);
-    LocalSystem& local = equations.local;
+    auto& local = equations.local;
     const unsigned int n = space.element.n_dofs_per_cell(), n_points = equations.quadrature.size();
     dealii::FullMatrix<double> cell_matrix(with_jacobian ? n : 0, with_jacobian ? n : 0);
     dealii::Vector<double> cell_rhs(n);
-    std::vector<Coefficients> residual(n_features, Coefficients(n_points)),
-        jacobian(with_jacobian ? pattern.size() : 0, Coefficients(n_points));
+    std::vector<Coefficients> residual(n_features, Coefficients(n_points));
+    std::vector<std::vector<float>> jacobian(with_jacobian ? pattern.size() : 0, std::vector<float>(n_points));
 
     for_each_cell(space, [&](const Cell& cell, const CellBox& box) {
         equations.on_cell<Number>(cell, box, [&](unsigned int q, double measure, const auto& rows) {
@@ -149,7 +149,7 @@ void assemble_cells(const StepProblem& problem, const std::vector<PatternEntry>&
             if constexpr (with_jacobian)
                 for (std::size_t k = 0; k < pattern.size(); ++k) {
                     const auto [row, column] = pattern[k];
-                    jacobian[k][q] = measure * feature(rows[row / 3], row % 3).partial[column];
+                    jacobian[k][q] = static_cast<float>(measure) * feature(rows[row / 3], row % 3).partial[column];
                 }
         });
         for (unsigned int k = 0; k < n_features; ++k) local.residual(k / 3, operations[k % 3], residual[k]);
@@ -157,7 +157,7 @@ void assemble_cells(const StepProblem& problem, const std::vector<PatternEntry>&
             for (std::size_t k = 0; k < pattern.size();) {  // all derivatives by one field follow each other
                 const unsigned int row = pattern[k].row, group = pattern[k].column / 3;
                 const bool twice = group == n_fields;
-                LocalSystem::Weights weights{};
+                BasicLocalSystem<float>::Weights weights{};
                 for (; k < pattern.size() && pattern[k].row == row && pattern[k].column / 3 == group; ++k)
                     weights[pattern[k].column % 3 + (twice ? 3 : 0)] = &jacobian[k];
                 local.jacobian(row / 3, operations[row % 3], twice ? unsigned{distance} : group, weights);

@@ -31,7 +31,7 @@ class StepFactors {
     [[nodiscard]] unsigned int made() const { return made_; }
     [[nodiscard]] unsigned int made_in_full_precision() const { return full_; }
     /// What the processes solve for together on the present mesh.
-    [[nodiscard]] SubdomainSystem::Index shared_unknowns() const { return system_.shared_unknowns(); }
+    [[nodiscard]] CondensedSystem::Index shared_unknowns() const { return system_.shared_unknowns(); }
 
     template <class Archive>
     void serialize(Archive& archive) {
