@@ -74,7 +74,7 @@ inline constexpr Constant constant_table[] = {
     {"longer_steps", 5, "", "than those of time.max_step's default, which the sharp engine has"},
     // Newton's method (step_solver.cpp)
     {"newton_part", 0.02, "the step's tolerance", "to which Newton's method converges"},
-    {"most_iterations", 16, "", "with the same factors: new ones cost more, but help later steps, too"},
+    {"most_iterations", 16, "", "with old factors, twice as many with new ones: making those costs as much as twenty"},
     {"seen_enough", 3, "", "iterations after which the number needed is foreseen"},
     {"farthest", 0.25, "ε", "from where the factors were made: beyond they do not serve"},
     {"most_failures", 6, "", "in a row: the k-th lets old factors, or single precision, alone for 2^(k − 2) steps"},

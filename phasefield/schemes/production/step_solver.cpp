@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "phasefield/fem/interruption.h"
 #include "phasefield/layer/constants.h"
@@ -45,8 +46,10 @@ StepSolver::StepSolver(const Parameters& parameters, MPI_Comm communicator, doub
 
 StepSolver::Ending StepSolver::iterate(const StepProblem& problem, Vector& solution, const Vector* newton) {
     std::optional<AndersonMixing> mixing;
-    double first = 0, last = 0;
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    // The first two changes: a sweep over blocks from new factors can change more than Newton's increment did.
+    double first = wanted_, last = 0;
+    const int most = newton == nullptr ? most_iterations : 2 * most_iterations;  // there are no better factors
+    for (int iteration = 0; iteration < most; ++iteration) {
         give_up_if_interrupted(problem.space.dofs.get_communicator());
         ++iterations_;
         const bool at_factors = iteration == 0 && newton != nullptr;
@@ -55,20 +58,18 @@ StepSolver::Ending StepSolver::iterate(const StepProblem& problem, Vector& solut
         char text[24];
         std::snprintf(text, sizeof text, at_factors ? " %.1e" : " (%.1e)", change);
         changes_ += text;
-        if (iteration == 0) first = std::max(change, wanted_);
+        if (iteration < 2) first = std::max(first, change);
         if (!std::isfinite(change) || change > most_divergence * first) return Ending::diverged;
         if (!mixing) mixing.emplace(problem.space, least_, presence(problem.space, problem.numbers, solution));
         mixing->advance(solution, step);
-        const double contraction = change / last;
+        const double contraction = change / std::exchange(last, change);
         const bool foreseen = newton != nullptr && iteration > 0 && contraction < fast_contraction;
         const bool arrived = change <= wanted_ || (foreseen && change * contraction <= 0.5 * wanted_);
         if (arrived && mixing->norm(step) <= largest_rest) return Ending::converged;
-        if (iteration >= seen_enough &&
-            std::log(wanted_ / first) < most_iterations * std::log(change / first) / iteration)
+        if (iteration >= seen_enough && std::log(wanted_ / first) < most * std::log(change / first) / iteration)
             break;  // it would take more at this rate
-        last = change;
     }
-    return Ending::slow;
+    return newton == nullptr && last > first / most_divergence ? Ending::diverged : Ending::slow;
 }
 
 StepSolver::Ending StepSolver::iterate_with_old_factors(const StepProblem& problem, Vector& solution) {

@@ -49,7 +49,7 @@ class StepSolver {
   private:
     enum class Ending { converged, slow, diverged };
 
-    /// Diverged, too, when what they lead to is no number: new ones may serve.
+    /// Diverged, too, when they came no closer, or what they lead to is no number: new ones may serve from the guess.
     Ending iterate_with_old_factors(const StepProblem& problem, Vector& solution);
     /// Diverged, too, when there are no factors of single precision.
     Ending iterate_with_new_factors(const StepProblem& problem, Vector& solution);
