@@ -25,6 +25,14 @@ dealii::FESystem<2> face_element(const Space& space, const std::vector<unsigned 
     return {addresses, std::vector<unsigned int>(components.size(), 1)};
 }
 
+template <class Real>
+dealii::LAPACKFullMatrix<Real> rounded(const dealii::LAPACKFullMatrix<double>& from) {
+    dealii::LAPACKFullMatrix<Real> out(from.m(), from.n());
+    for (unsigned int k = 0; k < from.n(); ++k)
+        for (unsigned int i = 0; i < from.m(); ++i) out(i, k) = static_cast<Real>(from(i, k));
+    return out;
+}
+
 }  // namespace
 
 CondensedSystem::CondensedSystem(MPI_Comm communicator, std::string name, std::vector<unsigned int> components)
@@ -75,6 +83,11 @@ void CondensedSystem::reinit(const Space& space, const std::vector<unsigned int>
         free_unknowns_.push_back(express_by_free(outer_unknowns[k], constraints, cells_[k].parts));
     process_ = process;
     owned_ = dofs.locally_owned_dofs();
+    inverse_.reinit(n_inner_, n_inner_);
+    to_inner_.reinit(n_inner_, n_outer_);
+    from_inner_.reinit(n_outer_, n_inner_);
+    A_oi_.reinit(n_outer_, n_inner_);
+    S_.reinit(n_outer_, n_outer_);
     outer_solution_.reinit(n_outer_);
     allocate<float>();
 }
@@ -85,9 +98,6 @@ void CondensedSystem::allocate() {
     numbers.system.reinit(free_unknowns_, process_, owned_);
     numbers.cells.resize(cells_.size());
     for (auto& cell : numbers.cells) cell.residual.reinit(n_inner_);
-    numbers.inner_rows.reinit(n_inner_, n_outer_ + n_inner_);
-    numbers.A_oi.reinit(n_outer_, n_inner_);
-    numbers.S.reinit(n_outer_, n_outer_);
     numbers.outer.reinit(n_outer_);
     numbers.inner.reinit(n_inner_);
 }
@@ -132,44 +142,40 @@ std::vector<CondensedSystem::Index> CondensedSystem::express_by_free(
 }
 
 template <class Real>
-void CondensedSystem::eliminate(const dealii::FullMatrix<double>& matrix, const Place& place, Numbers<Real>& numbers,
-                                typename Numbers<Real>::Elimination& cell) const {
+void CondensedSystem::eliminate(const dealii::FullMatrix<double>& matrix, const Place& place,
+                                typename Numbers<Real>::Elimination& cell) {
     const unsigned int m = n_outer_, n = n_inner_;
     const auto A = [&](unsigned int i, unsigned int k) { return matrix(in_cell_[i], in_cell_[k]); };
-    auto &inner_rows = numbers.inner_rows, &A_oi = numbers.A_oi, &S = numbers.S;
-    typename Numbers<Real>::Dense A_ii(n, n);
+    Dense A_ii(n, n);
     for (unsigned int i = 0; i < n; ++i) {
         // The rows' sizes differ by many powers of ten away from the membrane, and pivoting compares them.
         double largest = 0;
         for (unsigned int k = 0; k < n; ++k) largest = std::max(largest, std::abs(A(m + i, m + k)));
         const bool fixed = std::binary_search(place.fixed.begin(), place.fixed.end(), i);
         const double scale = fixed || largest == 0 ? 1 : 1 / largest;
-        for (unsigned int k = 0; k < n; ++k)
-            A_ii(i, k) = static_cast<Real>(fixed ? static_cast<double>(i == k) : scale * A(m + i, m + k));
-        for (unsigned int k = 0; k < m; ++k) inner_rows(i, k) = static_cast<Real>(fixed ? 0 : -scale * A(m + i, k));
-        for (unsigned int k = 0; k < n; ++k) inner_rows(i, m + k) = static_cast<Real>(i == k ? scale : 0);
-        for (unsigned int k = 0; k < m; ++k) A_oi(k, i) = static_cast<Real>(A(k, m + i));
+        for (unsigned int k = 0; k < n; ++k) A_ii(i, k) = fixed ? static_cast<double>(i == k) : scale * A(m + i, m + k);
+        for (unsigned int k = 0; k < m; ++k) to_inner_(i, k) = fixed ? 0 : -scale * A(m + i, k);
+        for (unsigned int k = 0; k < n; ++k) inverse_(i, k) = i == k ? scale : 0;
+        for (unsigned int k = 0; k < m; ++k) A_oi_(k, i) = A(k, m + i);
     }
     cell.undetermined = false;
     try {
         A_ii.compute_lu_factorization();
-        A_ii.solve(inner_rows);
+        A_ii.solve(to_inner_);
+        A_ii.solve(inverse_);
     } catch (const dealii::LACExceptions::ExcSingular&) {
         cell.undetermined = true;
-        inner_rows = 0;
+        to_inner_ = 0;
+        inverse_ = 0;
     }
-    cell.to_inner.reinit(n, m);
-    cell.inverse.reinit(n, n);
-    cell.from_inner.reinit(m, n);
-    for (unsigned int i = 0; i < n; ++i) {
-        for (unsigned int k = 0; k < m; ++k) cell.to_inner(i, k) = inner_rows(i, k);
-        for (unsigned int k = 0; k < n; ++k) cell.inverse(i, k) = inner_rows(i, m + k);
-    }
-    A_oi.mmult(cell.from_inner, cell.inverse);
-    cell.from_inner *= -1;
+    A_oi_.mmult(from_inner_, inverse_);
+    from_inner_ *= -1;
     for (unsigned int i = 0; i < m; ++i)
-        for (unsigned int k = 0; k < m; ++k) S(i, k) = static_cast<Real>(A(i, k));
-    A_oi.mmult(S, cell.to_inner, true);
+        for (unsigned int k = 0; k < m; ++k) S_(i, k) = A(i, k);
+    A_oi_.mmult(S_, to_inner_, true);
+    cell.inverse = rounded<Real>(inverse_);
+    cell.to_inner = rounded<Real>(to_inner_);
+    cell.from_inner = rounded<Real>(from_inner_);
 }
 
 void CondensedSystem::set(const Cell& cell, const dealii::FullMatrix<double>& matrix) {
@@ -177,14 +183,14 @@ void CondensedSystem::set(const Cell& cell, const dealii::FullMatrix<double>& ma
     const Place& place = cells_[own];
     std::visit(
         [&]<class Real>(Numbers<Real>& numbers) {
-            eliminate(matrix, place, numbers, numbers.cells[own]);
+            eliminate<Real>(matrix, place, numbers.cells[own]);
             const std::size_t n = numbers.system.unknowns(own);
             Real* matrix_of_free = numbers.system.matrix(own);
             std::fill(matrix_of_free, matrix_of_free + n * n, Real{0});
             for (const Part& column : place.parts)
                 for (const Part& row : place.parts)
                     matrix_of_free[column.free * n + row.free] +=
-                        static_cast<Real>(row.weight * column.weight) * numbers.S(row.outer, column.outer);
+                        static_cast<Real>(row.weight * S_(row.outer, column.outer) * column.weight);
         },
         numbers_);
 }

@@ -56,6 +56,8 @@ class CondensedSystem {
     [[nodiscard]] std::size_t position(const Cell& cell) const { return positions_[cell->active_cell_index()]; }
 
   private:
+    using Dense = dealii::LAPACKFullMatrix<double>;
+
     /// An outer unknown is a sum over free ones, the system's: itself, or where it hangs those it hangs on.
     struct Part {
         unsigned int outer, free;
@@ -67,22 +69,20 @@ class CondensedSystem {
         std::vector<unsigned int> fixed;  // of the inner ones, by constraints
         std::vector<Part> parts;          // of the outer ones
     };
-    /// All numbers of one precision.
+    /// All numbers of one precision. Cells are eliminated in double precision, and rounded once.
     template <class Real>
     struct Numbers {
-        using Dense = dealii::LAPACKFullMatrix<Real>;
         /// What is kept of a cell.
         struct Elimination {
-            bool undetermined = false;            // the inner unknowns
-            Dense inverse, to_inner, from_inner;  // A_ii⁻¹, −A_ii⁻¹ A_io, −A_oi A_ii⁻¹
-            dealii::Vector<Real> residual;        // r_i, which vanishes with that of the whole
+            bool undetermined = false;                                     // the inner unknowns
+            dealii::LAPACKFullMatrix<Real> inverse, to_inner, from_inner;  // A_ii⁻¹, −A_ii⁻¹ A_io, −A_oi A_ii⁻¹
+            dealii::Vector<Real> residual;                                 // r_i, which vanishes with that of the whole
         };
 
         Numbers(MPI_Comm communicator, const std::string& name) : system(communicator, name) {}
 
         SubdomainSystem<Real> system;
         std::vector<Elimination> cells;
-        Dense inner_rows, A_oi, S;
         dealii::Vector<Real> outer, inner;
     };
 
@@ -93,8 +93,8 @@ class CondensedSystem {
     template <class Real>
     void allocate();
     template <class Real>
-    void eliminate(const dealii::FullMatrix<double>& matrix, const Place& place, Numbers<Real>& numbers,
-                   typename Numbers<Real>::Elimination& cell) const;
+    void eliminate(const dealii::FullMatrix<double>& matrix, const Place& place,
+                   typename Numbers<Real>::Elimination& cell);
     void expand(const Space& space, Vector& solution);
 
     MPI_Comm communicator_;
@@ -108,6 +108,7 @@ class CondensedSystem {
     std::vector<unsigned int> process_;
     dealii::IndexSet owned_;
     std::variant<Numbers<float>, Numbers<double>> numbers_;
+    Dense inverse_, to_inner_, from_inner_, A_oi_, S_;
     dealii::Vector<double> free_residual_, outer_solution_;
 };
 
