@@ -22,7 +22,6 @@ namespace endoflow::phasefield {
 namespace {
 
 constexpr double thinnest = constant("thinnest");
-constexpr double thickest = constant("thickest");
 constexpr double thinning_slope = constant("thinning_slope");
 constexpr double thinning_window = constant("thinning_window");
 constexpr double room_needed = constant("room_needed");
@@ -117,8 +116,8 @@ double widest_layer(const Parameters& p, double r) {
     if (p.phase_field.production.thinning == 0 || !flat_far_away) return epsilon;
     const double near = p.molecules.patch_radius + std::numbers::pi * length_of_structure(p);
     const double to_wall = std::min(p.domain.membrane_height, p.domain.height - p.domain.membrane_height);
-    const double most = std::min(thickest * epsilon, to_wall / room_needed);
-    return std::max(epsilon, std::min(most, epsilon + thinning_slope * (r - near)));
+    const double flat_and_free = std::min(r - near, p.domain.radius - r);  // from coat and rim
+    return std::max(epsilon, std::min(to_wall / room_needed, epsilon + thinning_slope * flat_and_free));
 }
 
 std::vector<double> thickness_along(const MembraneCurve& curve, const Parameters& p) {

@@ -18,10 +18,10 @@ struct PointThickness {
 };
 
 /// ε₀ at the distance r from the axis [nm]: phase_field.epsilon as far as the coat and what forms of it reach, r_c + πL
-/// (L: length_of_structure), half the arc of the sphere beside the coat; beyond, where an open membrane is flat and
-/// hardly moves, thicker by `thinning_slope` of the distance, up to `thickest` times and as far as the walls leave
-/// room. So a wide box costs few cells. Everywhere phase_field.epsilon for a vesicle, a coat that grows, and a uniform
-/// layer.
+/// (L: length_of_structure), half the arc of the sphere beside the coat, and at the rim, where the layer crosses the
+/// pin band. Between the two, where an open membrane is flat and hardly moves, thicker by `thinning_slope` of the
+/// distance to the nearer one, as far as the walls leave room. So a wide box costs few cells. Everywhere
+/// phase_field.epsilon for a vesicle, a coat that grows, and a uniform layer.
 double widest_layer(const Parameters& parameters, double r);
 
 /// ε at the points of the membrane [nm]: ε₀, and where a radius of curvature ρ, along the meridian or

@@ -54,7 +54,6 @@ inline constexpr Constant constant_table[] = {
     {"shortest_gradient", 0.3, "", "below it normals fade: they are about to cross"},
     // The layer's thickness (layer_thickness.cpp)
     {"thinnest", 0.125, "phase_field.epsilon", "the layer, however narrow the membrane"},
-    {"thickest", 8, "phase_field.epsilon", "the layer, where an open membrane is flat and far from the coat"},
     {"room_needed", 6.5, "ε", "from the membrane to where its layer meets another one: 2e-7 of δ are left there"},
     {"thinning_slope", 0.1, "", "of the thickness along the membrane, at most"},
     {"thinning_window", 1, "phase_field.epsilon", "half the arc from which the membrane's curvature is taken"},
@@ -91,6 +90,7 @@ inline constexpr Constant constant_table[] = {
     {"edge_part", 0.47, "", "|c − ½| below this is the edge: in the bud 1 − c comes to 0.016"},
     {"fine_band", 3, "ε", "half-width of the finer cells, and of those in the layer where phase_field.band_width is 0"},
     {"cells_slack", 1.05, "", "cells of a thinner layer may be this much wider, in units of ε"},
+    {"pin_cells", 0.1, "z_p", "largest cell at the ends of the pin band, between which u_z is held node by node"},
     {"neck_cells", 0.25, "", "largest cell where the membrane is narrow, in units of its radius there"},
     {"motion_without_flow", 0.5, "ε", "after which the mesh follows without flow; with it largest_motion"},
     {"most_neck_levels", 2, "", "with cells of 4/3 ε: necks below 1.4 ε have left the model anyway"},

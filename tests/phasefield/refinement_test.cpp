@@ -63,6 +63,14 @@ TEST_CASE("cells are a quarter of the neck's radius and no finer at the bud's ti
     CHECK(wanted_size(refined_bands(bud_on_neck(1.0), p), p, 1, 60) == 0.25 * cell_size);
 }
 
+TEST_CASE("the pin band ends in cells of a tenth of its half width, unless nothing flows", "[refinement]") {
+    Parameters p = with_cells();
+    const double R = p.domain.radius, end = p.domain.membrane_height + p.domain.pin_half_width;
+    CHECK(wanted_size(refined_bands(bud_on_neck(8), p), p, R, end) == cell_size / 4);  // 5/10 nm
+    p.fluid.dynamics = Dynamics::geometric;
+    CHECK(wanted_size(refined_bands(bud_on_neck(8), p), p, R, end) >= cell_size);
+}
+
 TEST_CASE("cells are finer where the layer is thinner", "[refinement]") {
     // ε is in proportion to the neck's radius, 14 nm for ε₀; a cell may be 1.05 times as many ε wide as elsewhere,
     // which a catenoid of 17 nm is for 2 (14/17)⁸ = 0.42.

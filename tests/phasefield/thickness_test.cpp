@@ -74,18 +74,20 @@ TEST_CASE("far from the coat a flat layer is thicker, as far as the walls leave 
                  slope = constant("thinning_slope");
     const auto thickness = thickness_along(flat, p);
     for (std::size_t i = 0; i < thickness.size(); ++i) {
-        const double away = flat.r[i] - near;
-        const double expected = p.phase_field.epsilon * std::clamp(1 + slope * away / p.phase_field.epsilon, 1.0, 8.0);
-        // The mean over 2 ε₀ of arc rounds the two bends, twice.
+        const double away = std::max(0.0, std::min(flat.r[i] - near, p.domain.radius - flat.r[i]));
+        const double expected = p.phase_field.epsilon + slope * away;
+        // The mean over 2 ε₀ of arc rounds the three bends, twice.
         CHECK(std::abs(thickness[i] - expected) <= slope * p.phase_field.epsilon);
     }
     CHECK(thickness.front() == Approx(p.phase_field.epsilon));
-    CHECK(thickness.back() == Approx(8 * p.phase_field.epsilon));
+    CHECK(widest_layer(p, p.domain.radius) == p.phase_field.epsilon);
+    const double middle = 0.5 * (near + p.domain.radius);
+    CHECK(widest_layer(p, middle) == Approx(p.phase_field.epsilon + slope * (middle - near)));
     p.domain.membrane_height = 20;
-    CHECK(widest_layer(p, 400) == Approx(20 / constant("room_needed")));
+    CHECK(widest_layer(p, middle) == Approx(20 / constant("room_needed")));
     p.domain.membrane_height = 400;
     p.molecules.exchange = Exchange::edge;
-    CHECK(widest_layer(p, 400) == p.phase_field.epsilon);
+    CHECK(widest_layer(p, middle) == p.phase_field.epsilon);
 }
 
 TEST_CASE("the layer follows neck and bend", "[thickness]") {

@@ -17,6 +17,7 @@ namespace {
 constexpr double edge_cells = constant("edge_cells");
 constexpr double edge_part = constant("edge_part");
 constexpr double fine_band = constant("fine_band");
+constexpr double pin_cells = constant("pin_cells");
 constexpr double neck_cells = constant("neck_cells");
 constexpr double motion_without_flow = constant("motion_without_flow");
 constexpr double cells_slack = constant("cells_slack");
@@ -84,6 +85,12 @@ Indices thin_part(const std::vector<double>& thickness, double epsilon) {
     return out;
 }
 
+/// The ends of the pin band on the side wall, where the fluid's stress is singular.
+std::vector<RefinedBand::Point> pin_ends(const DomainParameters& box, double reach) {
+    return {{{box.radius, box.membrane_height - box.pin_half_width}, reach},
+            {{box.radius, box.membrane_height + box.pin_half_width}, reach}};
+}
+
 Indices patch_edge(const MembraneCurve& curve) {
     Indices out;
     for (std::size_t i = 0; i < curve.size(); ++i)
@@ -123,9 +130,17 @@ std::vector<RefinedBand> refined_bands(const MembraneCurve& curve, const Paramet
         out.push_back({path.around(part, layers), static_cast<unsigned int>(level_of_layer + halvings),
                        std::ldexp(p.cell_size, -halvings)});
     };
-    const double wanted = edge_cells * parameters.molecules.interface_width;
-    const auto edge_levels = static_cast<int>(std::max(0.0, std::ceil(std::log2(p.cell_size / wanted))));
+    const auto halvings_to = [&](double size) {
+        return static_cast<int>(std::max(0.0, std::ceil(std::log2(p.cell_size / size))));
+    };
+    const int edge_levels = halvings_to(edge_cells * parameters.molecules.interface_width);
     if (edge_levels > 0) add(patch_edge(curve), fine_band, edge_levels);
+    if (parameters.domain.kind == DomainKind::box && parameters.fluid.dynamics == Dynamics::flow) {
+        const int pin_levels = halvings_to(pin_cells * parameters.domain.pin_half_width);
+        const double size = std::ldexp(p.cell_size, -pin_levels);
+        out.push_back(
+            {pin_ends(parameters.domain, 1e-3 * size), static_cast<unsigned int>(level_of_layer + pin_levels), size});
+    }
     const double widest = *std::ranges::max_element(thickness);
     int halvings = -std::min(level_of_layer, static_cast<int>(std::log2(cells_slack * widest / p.epsilon)));
     for (Indices part = whole(curve); !part.empty();
