@@ -1,17 +1,34 @@
 // Time step control, joining of contour pieces, distance from the walls: parts without finite elements.
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 #include <string>
 
 #include "phasefield/contour/chain.h"
 #include "phasefield/driver/clearance.h"
 #include "phasefield/schemes/paper/step_control.h"
+#include "phasefield/schemes/production/step_control.h"
+#include "shared/model/time_scale.h"
 #include "shared/support/error.h"
 
 using namespace endoflow;
 using namespace endoflow::phasefield;
 using namespace endoflow::phasefield::paper;
+
+TEST_CASE("a production step that ends early may have a smaller error", "[control]") {
+    const Parameters p;
+    const double T = structure_time(p);
+    CHECK(production::early_part(0.125 * T, p) == Approx(0.5));
+    CHECK(production::early_part(3 * T, p) == 1);
+    CHECK(production::early_part(1e-9 * T, p) == 0.1);
+    // The error over what is allowed is what the next step follows: 0.5^(1/4) of the length for half of it.
+    production::TriedStep tried{.tau = 1e-3, .order = 3, .wrong_position = 2};
+    tried.change = 1e3;
+    const double half = production::step_after(tried, tried.tau, p);
+    tried.wrong_position = 1;
+    CHECK(half == Approx(std::pow(0.5, 0.25) * production::step_after(tried, tried.tau, p)));
+}
 
 TEST_CASE("the step doubles every ramp_steps steps up to its limit", "[control]") {
     Parameters p;

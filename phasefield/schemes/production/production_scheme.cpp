@@ -188,7 +188,7 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     tried.tau = tau;
     tried.order = order;
     tried.early = state_.steps < first_steps;
-    tried.wrong_position = fraction * measures.step_difference / of_position;
+    tried.wrong_position = fraction * measures.step_difference / (early_part(end, parameters_) * of_position);
     // A bulk that is being depleted changes the rate at which molecules come in times of its own.
     if (bulk_) tried.wrong_molecules = fraction * std::abs(mass / numbers.molecules - 1) / tolerance;
     tried.motion = measures.layer_motion / (largest_motion * parameters_.phase_field.epsilon);
