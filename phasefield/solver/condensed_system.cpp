@@ -238,18 +238,17 @@ void CondensedSystem::expand(const Space& space, Vector& solution) {
     solution.zero_out_ghost_values();
     std::visit(
         [&]<class Real>(Numbers<Real>& numbers) {
-            dealii::Vector<double>& outer = outer_solution_;
             for (std::size_t own = 0; own < cells_.size(); ++own) {
                 const Place& place = cells_[own];
                 auto& kept = numbers.cells[own];
-                outer = 0;
+                outer_solution_ = 0;
                 for (const Part& part : place.parts)
-                    outer(part.outer) += part.weight * numbers.system.values(own)[part.free];
-                numbers.outer = outer;
+                    outer_solution_(part.outer) += part.weight * numbers.system.values(own)[part.free];
+                numbers.outer = outer_solution_;
                 kept.inverse.vmult(numbers.inner, kept.residual);
                 kept.to_inner.vmult_add(numbers.inner, numbers.outer);
                 for (unsigned int i = 0; i < n_outer_; ++i)
-                    if (space.owned.is_element(place.unknowns[i])) solution(place.unknowns[i]) = outer(i);
+                    if (space.owned.is_element(place.unknowns[i])) solution(place.unknowns[i]) = outer_solution_(i);
                 for (unsigned int i = 0; i < n_inner_; ++i)
                     solution(place.unknowns[n_outer_ + i]) = static_cast<double>(numbers.inner(i));
             }

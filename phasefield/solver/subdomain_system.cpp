@@ -124,8 +124,9 @@ template <class Real>
 void SubdomainSystem<Real>::factorise() {
     factors_valid_ = false;
     dealii::FullMatrix<double> left;
-    if (!matrices_.all_stay()) matrices_.hand_over(own_matrices_, assigned_matrices_);
-    require_solved(factors_->factorise(matrices_.all_stay() ? own_matrices_ : assigned_matrices_, left));
+    const bool exchanged = !matrices_.all_stay();
+    if (exchanged) matrices_.hand_over(own_matrices_, assigned_matrices_);
+    require_solved(factors_->factorise(exchanged ? assigned_matrices_ : own_matrices_, left));
     require_solved(interface_.factorise(left));
 }
 
