@@ -11,7 +11,7 @@ namespace endoflow::phasefield {
 
 namespace {
 
-constexpr double slack = 0.05;  // of a part's cells, to either side of an equal cut
+constexpr double slack = 0.015;  // of a part's cells, to either side of an equal cut
 
 /// Of all processes together.
 std::vector<double> gathered(const std::vector<double>& own, MPI_Comm communicator) {
@@ -54,9 +54,24 @@ Places places_along(const MembraneCurve& membrane, const Space& space) {
     return out;
 }
 
+/// How many of all cells cost this share of all operations, if cells of a part cost the same.
+double share_of_cells(const std::vector<PartAlong>& parts, double share) {
+    double all = 0;
+    for (const PartAlong& part : parts) all += part.operations;
+    if (!(all > 0)) return share;
+    double cells = 0, left = share * all;
+    for (const PartAlong& part : parts) {
+        if (left < part.operations) return cells + part.cells * left / part.operations;
+        cells += part.cells;
+        left -= part.operations;
+    }
+    return cells;
+}
+
 }  // namespace
 
-std::vector<unsigned int> parts_along(const MembraneCurve& membrane, const Space& space) {
+std::vector<unsigned int> parts_along(const MembraneCurve& membrane, const Space& space,
+                                      const std::vector<PartAlong>& last) {
     const MPI_Comm communicator = space.dofs.get_communicator();
     const auto processes = dealii::Utilities::MPI::n_mpi_processes(communicator);
     if (processes == 1) return std::vector<unsigned int>(space.dofs.get_triangulation().n_active_cells(), 0);
@@ -72,12 +87,13 @@ std::vector<unsigned int> parts_along(const MembraneCurve& membrane, const Space
     const double part = static_cast<double>(cells.size()) / processes;
     std::vector<double> cuts;
     for (unsigned int k = 1; k < processes; ++k) {
-        const auto first = static_cast<std::size_t>((k - slack) * part),
-                   last = static_cast<std::size_t>((k + slack) * part);
-        const auto equal = static_cast<std::size_t>(k * part);
+        const double middle = share_of_cells(last, static_cast<double>(k) / processes) * processes;
+        const auto first = static_cast<std::size_t>((middle - slack) * part),
+                   end = static_cast<std::size_t>((middle + slack) * part),
+                   equal = static_cast<std::size_t>(middle * part);
         double best = cells[equal];
         std::size_t fewest = faces_met(best);
-        for (std::size_t i = first; i <= last; ++i) {
+        for (std::size_t i = first; i <= end; ++i) {
             const std::size_t met = faces_met(cells[i]);
             if (met < fewest) {
                 fewest = met;
@@ -89,6 +105,19 @@ std::vector<unsigned int> parts_along(const MembraneCurve& membrane, const Space
     std::vector<unsigned int> out;
     for (const double at : own.cells)
         out.push_back(static_cast<unsigned int>(std::upper_bound(cuts.begin(), cuts.end(), at) - cuts.begin()));
+    return out;
+}
+
+std::vector<PartAlong> measured_parts(const std::vector<unsigned int>& part_of_cell, double operations,
+                                      const Space& space) {
+    const MPI_Comm communicator = space.dofs.get_communicator();
+    std::vector<double> cells(dealii::Utilities::MPI::n_mpi_processes(communicator));
+    for (const unsigned int part : part_of_cell) cells[part] += 1;
+    dealii::Utilities::MPI::sum(cells, communicator, cells);
+    const auto all = static_cast<double>(space.dofs.get_triangulation().n_global_active_cells());
+    const auto costs = dealii::Utilities::MPI::all_gather(communicator, operations);
+    std::vector<PartAlong> out;
+    for (std::size_t part = 0; part < cells.size(); ++part) out.push_back({cells[part] / all, costs[part]});
     return out;
 }
 

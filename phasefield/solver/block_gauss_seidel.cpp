@@ -57,6 +57,12 @@ bool BlockGaussSeidel::has_factors() const {
     return std::all_of(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.system.has_factors(); });
 }
 
+double BlockGaussSeidel::operations() const {
+    double sum = 0;
+    for (const Block& block : blocks_) sum += block.system.operations();
+    return sum;
+}
+
 CondensedSystem::Index BlockGaussSeidel::shared_unknowns() const {
     CondensedSystem::Index sum = 0;
     for (const Block& block : blocks_) sum += block.system.shared_unknowns();

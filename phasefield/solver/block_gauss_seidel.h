@@ -39,6 +39,7 @@ class BlockGaussSeidel {
     void apply_factors(const Space& space, Vector& solution);
     /// Of all blocks.
     [[nodiscard]] CondensedSystem::Index shared_unknowns() const;
+    [[nodiscard]] double operations() const;
 
   private:
     struct Block {

@@ -119,6 +119,10 @@ bool CondensedSystem::has_factors() const {
     return std::visit([](const auto& numbers) { return numbers.system.has_factors(); }, numbers_);
 }
 
+double CondensedSystem::operations() const {
+    return std::visit([](const auto& numbers) { return numbers.system.operations(); }, numbers_);
+}
+
 CondensedSystem::Index CondensedSystem::shared_unknowns() const {
     return std::visit([](const auto& numbers) { return numbers.system.shared_unknowns(); }, numbers_);
 }

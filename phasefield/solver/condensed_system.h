@@ -47,6 +47,7 @@ class CondensedSystem {
     void solve(const Space& space, Vector& solution);
     void apply_factors(const Space& space, Vector& solution);
     [[nodiscard]] Index shared_unknowns() const;
+    [[nodiscard]] double operations() const;
 
     [[nodiscard]] const std::vector<unsigned int>& components() const { return components_; }
     /// Their unknowns in a cell's numbering.

@@ -64,6 +64,7 @@ class FactorsOf final : public MumpsFactors<Real> {
     bool factorise(std::vector<Real>& entries, dealii::FullMatrix<double>& left) override;
     bool reduce(const dealii::Vector<double>& right_hand_side, dealii::Vector<double>& reduced) override;
     bool expand(const dealii::Vector<double>& kept, dealii::Vector<double>& solution) override;
+    double operations() const override { return static_cast<double>(handle_.id.rinfo[0]); }
 
   private:
     /// The sizes of rows and columns differ by many powers of ten, and pivoting compares them.

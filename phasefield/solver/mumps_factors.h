@@ -48,6 +48,8 @@ class MumpsFactors {
     /// The right-hand side of the kept unknowns, r_k − A_ki A_ii⁻¹ r_i. Remembers r_i for the next expand().
     [[nodiscard]] virtual bool reduce(const dealii::Vector<double>& right_hand_side,
                                       dealii::Vector<double>& reduced) = 0;
+    /// Operations that a factorisation takes, as the order of elimination lets expect.
+    [[nodiscard]] virtual double operations() const = 0;
     /// All unknowns from the kept ones.
     [[nodiscard]] virtual bool expand(const dealii::Vector<double>& kept, dealii::Vector<double>& solution) = 0;
 };

@@ -45,6 +45,8 @@ class SubdomainSystem {
     [[nodiscard]] unsigned int unknowns(std::size_t cell) const { return static_cast<unsigned int>(sizes_[cell]); }
     /// The solution at an own cell's unknowns.
     [[nodiscard]] const double* values(std::size_t cell) const { return &own_rows_[rows_.begin(cell)]; }
+    /// Of this process in a factorisation.
+    [[nodiscard]] double operations() const { return factors_->operations(); }
     /// Of all processes together.
     [[nodiscard]] Index shared_unknowns() const { return interface_.size(); }
 

@@ -6,9 +6,12 @@
 #include <cmath>
 
 #include "phasefield/contour/contour.h"
+#include "phasefield/contour/parts_along.h"
+#include "phasefield/layer/initial_membrane.h"
 #include "phasefield/schemes/paper/diagnostics.h"
 #include "phasefield/schemes/paper/paper_step.h"
 #include "phasefield/schemes/paper/state_files.h"
+#include "phasefield/schemes/production/fields.h"
 #include "shared/geometry/observables.h"
 #include "small_case.h"
 
@@ -54,6 +57,21 @@ TEST_CASE("two processes give what one gives", "[mpi]") {
     CHECK(two.area == Approx(one.area).epsilon(1e-9));
     CHECK(two.molecules == Approx(one.molecules).epsilon(1e-10));
     CHECK(two.strain == Approx(one.strain).epsilon(1e-6));
+}
+
+TEST_CASE("the mesh is cut along the membrane where its parts cost the same", "[mpi]") {
+    const Parameters p = small_case();
+    const auto mesh = coarse_mesh(p, MPI_COMM_WORLD);
+    Space space(*mesh, production::field_degrees(p.phase_field));
+    space.distribute();
+    const auto share_of_first = [&](const std::vector<PartAlong>& last) {
+        return measured_parts(parts_along(InitialMembrane(p).curve(1.0), space, last), 1, space).front().cells;
+    };
+    // Cells above one another have one place along the flat membrane: the share comes in columns.
+    const double column = 1 / std::round(p.domain.radius / layer_cell_size(p) / 4);
+    CHECK(share_of_first({}) == Approx(0.5).margin(column));
+    CHECK(share_of_first({{0.5, 1}, {0.5, 3}}) == Approx(0.5 + 0.5 / 3).margin(column));
+    CHECK(share_of_first({{0.2, 1}, {0.8, 1}}) == Approx(0.2).margin(column));
 }
 
 TEST_CASE("a checkpoint brings the state back, also on another number of processes", "[mpi]") {

@@ -1,6 +1,5 @@
 #include "phasefield/schemes/production/step_factors.h"
 
-#include "phasefield/contour/parts_along.h"
 #include "phasefield/layer/constants.h"
 #include "phasefield/schemes/production/diagnostics.h"
 
@@ -25,7 +24,9 @@ StepFactors::StepFactors(const Parameters& parameters, MPI_Comm communicator)
     : system_(communicator, "coupled", blocks_of_fields(parameters)) {}
 
 void StepFactors::reinit(const Space& space, const MembraneCurve& membrane) {
-    system_.reinit(space, parts_along(membrane, space));
+    const auto parts = parts_along(membrane, space, parts_);
+    system_.reinit(space, parts);
+    parts_ = measured_parts(parts, system_.operations(), space);
 }
 
 bool StepFactors::serve(const StepProblem& problem, const Vector& solution) const {

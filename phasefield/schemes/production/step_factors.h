@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasefield/contour/parts_along.h"
 #include "phasefield/schemes/production/assembly.h"
 #include "phasefield/solver/block_gauss_seidel.h"
 #include "shared/geometry/membrane_curve.h"
@@ -13,7 +14,7 @@ class StepFactors {
     StepFactors(const Parameters& parameters, MPI_Comm communicator);
 
     /// The mesh has changed: there are none. Processes share the elimination along the membrane, so each has two
-    /// neighbours, and few unknowns in common with them.
+    /// neighbours, and few unknowns in common with them; as much of it as parts of the last mesh let expect.
     void reinit(const Space& space, const MembraneCurve& membrane);
     void forget() { system_.forget_factors(); }
 
@@ -42,7 +43,8 @@ class StepFactors {
   private:
     std::vector<PatternEntry> pattern_ = equation_pattern();
     BlockGaussSeidel system_;
-    Vector origin_;  // where they were made
+    std::vector<PartAlong> parts_;  // of the present mesh
+    Vector origin_;                 // where they were made
     unsigned int made_ = 0, full_ = 0;
 };
 
