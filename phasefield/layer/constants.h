@@ -60,6 +60,7 @@ inline constexpr Constant constant_table[] = {
     // Steps (production_scheme.cpp)
     {"default_tolerance", 1e-4, "", "time.tolerance where that is 0"},
     {"error_part", 0.05, "time.tolerance", "error of one step: the errors of the steps add up"},
+    {"first_order_part", 0.125, "time.initial_step's default", "the first step, which is of order 1"},
     {"least_early_part", 0.1, "", "of that error at least, where it is smaller early: Newton's method leaves 0.02"},
     {"safety", 0.85, "", "of the step"},
     {"largest_growth", 1.5, "", "of the step, per step"},
@@ -68,7 +69,7 @@ inline constexpr Constant constant_table[] = {
     {"almost_all", 0.7, "", "of the time left: one step, or ever shorter ones would approach the end"},
     {"tolerated_excess", 2, "", "of the error over its tolerance, beyond which a step is repeated"},
     {"retry", 0.5, "", "of a step, its repetition at most; its square at least"},
-    {"smallest_step", 1e-5, "the first step", "below it the run ends"},
+    {"smallest_step", 1e-4, "the first step", "below it the run ends"},
     {"relaxation_per_speed", 2000, "", "M_p is at most this many times the speed of the membrane"},
     {"largest_motion", 1.5, "ε", "of the membrane in one step"},
     {"longer_steps", 5, "", "than those of time.max_step's default, which the sharp engine has"},

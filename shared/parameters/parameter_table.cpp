@@ -285,7 +285,7 @@ std::vector<ParameterRow> time_rows() {
                             "boundary_integral.accuracy in that engine, 1e-4 in the other")),
         free_on_restart(row("time", "initial_step", &P::time, &S::initial_step, "µs", at_least(0, 1e3), "",
                             "first time step; 0 = 1.9458e-4 (ν₁ + ν₂) L³/β, L being what forms, 2/C of a coat: 1e-5 µs "
-                            "in the standard case")),
+                            "in the standard case; an eighth of it with phase_field.scheme = production")),
         free_on_restart(
             row("time", "max_step", &P::time, &S::max_step, "µs", at_least(0, 1e6), "",
                 "largest time step; 0 = no bound in the sharp engine: its error decides. In the other 3.8916 "

@@ -30,6 +30,13 @@ TEST_CASE("a production step that ends early may have a smaller error", "[contro
     CHECK(half == Approx(std::pow(0.5, 0.25) * production::step_after(tried, tried.tau, p)));
 }
 
+TEST_CASE("the first production step is an eighth of the sharp engine's, unless a case says", "[control]") {
+    Parameters p;
+    CHECK(production::first_implicit_step(p) == Approx(first_step(p) / 8));
+    p.time.initial_step = 1e-6;
+    CHECK(production::first_implicit_step(p) == 1e-6);
+}
+
 TEST_CASE("the step doubles every ramp_steps steps up to its limit", "[control]") {
     Parameters p;
     p.time.initial_step = 1e-5;

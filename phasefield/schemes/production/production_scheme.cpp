@@ -18,7 +18,6 @@ namespace endoflow::phasefield::production {
 namespace {
 
 constexpr std::size_t line_points = 2;
-constexpr unsigned int first_steps = highest_order + 1;  // before the error can be estimated well
 constexpr double almost_all = constant("almost_all");
 constexpr double newton_part = constant("newton_part");
 
@@ -42,7 +41,7 @@ ProductionScheme::ProductionScheme(const Parameters& parameters, MPI_Comm commun
       bulk_(parameters.molecules.bulk == Bulk::none
                 ? nullptr
                 : std::make_unique<BulkTransport>(parameters, *mesh_, communicator)) {
-    state_.next_step = first_step(parameters);
+    state_.next_step = first_implicit_step(parameters);
 }
 
 void ProductionScheme::distribute() {
@@ -187,7 +186,6 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     TriedStep& tried = trial.tried;
     tried.tau = tau;
     tried.order = order;
-    tried.early = state_.steps < first_steps;
     tried.wrong_position = fraction * measures.step_difference / (early_part(end, parameters_) * of_position);
     // A bulk that is being depleted changes the rate at which molecules come in times of its own.
     if (bulk_) tried.wrong_molecules = fraction * std::abs(mass / numbers.molecules - 1) / tolerance;
@@ -239,7 +237,7 @@ void ProductionScheme::place_collar(double area) {
     state_.times.resize(1);
     state_.masses.resize(1);
     if (bulk_) bulk_->start_anew();
-    state_.next_step = std::min(state_.next_step, first_step(parameters_));
+    state_.next_step = std::min(state_.next_step, first_implicit_step(parameters_));
     state_.steps = 0;
 }
 

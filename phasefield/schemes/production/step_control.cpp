@@ -13,6 +13,7 @@ namespace endoflow::phasefield::production {
 namespace {
 
 constexpr double default_tolerance = constant("default_tolerance");
+constexpr double first_order_part = constant("first_order_part");
 constexpr double least_early_part = constant("least_early_part");
 constexpr double error_part = constant("error_part");
 constexpr double safety = constant("safety");
@@ -25,7 +26,7 @@ constexpr double retry = constant("retry");
 
 /// By which the next step may be longer, as far as error and motion go.
 double growth(const TriedStep& tried) {
-    double factor = tried.early ? 1 : largest_growth;
+    double factor = largest_growth;
     const double wrong = std::max(tried.wrong_position, tried.wrong_molecules);  // 0 lets it grow as far as it may
     factor = std::min(factor, safety * std::pow(wrong, -1 / (1 + static_cast<double>(tried.order))));
     return tried.motion > 0 ? std::min(factor, safety / tried.motion) : factor;
@@ -43,6 +44,10 @@ double position_tolerance(const Parameters& p) {
 
 double early_part(double time, const Parameters& p) {
     return std::clamp(std::cbrt(time / structure_time(p)), least_early_part, 1.0);
+}
+
+double first_implicit_step(const Parameters& p) {
+    return p.time.initial_step > 0 ? p.time.initial_step : first_order_part * first_step(p);
 }
 
 std::string rejection(const TriedStep& tried) {
@@ -67,7 +72,7 @@ double step_after(const TriedStep& tried, double planned, const Parameters& p) {
 
 double step_instead(const TriedStep& tried, double time, const Parameters& p) {
     const double smaller = std::clamp(growth(tried), retry * retry, retry) * tried.tau;
-    if (smaller < smallest_step * first_step(p))
+    if (smaller < smallest_step * first_implicit_step(p))
         throw SolverError("step-size-underflow", "no acceptable time step at t = " + std::to_string(time) + " µs",
                           "use a smaller phase_field.cell_size or a larger phase_field.production.profile_relaxation");
     return smaller;

@@ -20,11 +20,13 @@ inline constexpr double largest_motion = constant("largest_motion");
 /// that has just begun to move has not come far; from a tenth, which Newton's method resolves, to 1.
 [[nodiscard]] double early_part(double time, const Parameters& parameters);
 
+/// The first step [µs]: time.initial_step, or where that is 0 a part of first_step, for it is of order 1.
+[[nodiscard]] double first_implicit_step(const Parameters& parameters);
+
 /// What is known of a step that was tried.
 struct TriedStep {
     double tau = 0;  // [µs]
     std::size_t order = 1;
-    bool early = false;          // its error cannot be estimated well
     double wrong_position = 0;   // errors over those allowed, 0 where they are not known
     double wrong_molecules = 0;  // of ∫ c dA, where a bulk is depleted
     double motion = 0;           // of the layer, over the largest allowed
