@@ -28,7 +28,7 @@ double coat_of(const Parameters& p) {
 /// The loads' power on the flat membrane of the small case when the velocity is u_r(r), u_z(r).
 template <class Radial, class Axial>
 double power(const Parameters& p, const Radial& u_r, const Axial& u_z) {
-    const OneStep one(p, 1e-9);
+    const OneStep one(p);
     StepNumbers numbers = step_numbers(p, 2000, 1000);
     MembraneCurve membrane;
     for (double r = 0; r <= p.domain.radius; r += 0.125) {

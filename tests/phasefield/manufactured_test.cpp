@@ -62,7 +62,7 @@ struct KnownStep {
     explicit KnownStep(unsigned int cells, double pressure_factor = 1)
         : pressures(pressure_factor),
           parameters(on_squares(cells)),
-          one(parameters, 1e-9),
+          one(parameters),
           numbers(step_numbers(parameters, 2000, 1000)),
           past{known()},
           history(one.space, numbers, past, {-2000}, {1}, past.front()) {
@@ -82,7 +82,7 @@ struct KnownStep {
     /// From the interpolated one.
     Vector solve() {
         Vector x = known();
-        one.solver.solve({one.space, one.energy, numbers, history}, x);
+        one.solver.solve({one.space, one.energy, numbers, history}, x, 1e-9);
         return x;
     }
 

@@ -17,11 +17,11 @@ inline StepNumbers step_numbers(const Parameters& p, double rate, double profile
 
 /// The unknowns of a case on its coarse mesh and what solves for one step, on one process.
 struct OneStep {
-    OneStep(const Parameters& p, double tolerance)
+    explicit OneStep(const Parameters& p)
         : mesh(coarse_mesh(p, MPI_COMM_SELF)),
           space(*mesh, field_degrees(p.phase_field)),
           energy(p),
-          solver(p, MPI_COMM_SELF, tolerance) {
+          solver(p, MPI_COMM_SELF) {
         space.distribute();
         close_constraints(space, p);
         solver.reinit(space, InitialMembrane(p).curve(1.0));

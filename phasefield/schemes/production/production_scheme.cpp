@@ -18,6 +18,7 @@ namespace endoflow::phasefield::production {
 namespace {
 
 constexpr std::size_t line_points = 2;
+constexpr unsigned int first_steps = highest_order + 1;  // before the error can be estimated well
 constexpr double almost_all = constant("almost_all");
 constexpr double newton_part = constant("newton_part");
 
@@ -37,7 +38,7 @@ ProductionScheme::ProductionScheme(const Parameters& parameters, MPI_Comm commun
       case_(parameters),
       mesh_(coarse_mesh(parameters, communicator)),
       space_(*mesh_, field_degrees(parameters.phase_field)),
-      solver_(parameters, communicator, newton_part * position_tolerance(parameters)),
+      solver_(parameters, communicator),
       bulk_(parameters.molecules.bulk == Bulk::none
                 ? nullptr
                 : std::make_unique<BulkTransport>(parameters, *mesh_, communicator)) {
@@ -159,7 +160,8 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
                         guess);
     const StepProblem problem{space_, energy, numbers, past};
     const unsigned int factorisations = solver_.factors().made();
-    solver_.solve(problem, trial.solution);
+    const double of_position = position_tolerance(parameters_), allowed = early_part(end, parameters_) * of_position;
+    solver_.solve(problem, trial.solution, newton_part * allowed);
     const bool hard = solver_.factors().made() > factorisations + 1;
 
     Vector rate = combination(space_, bdf.past, trial.before);
@@ -181,12 +183,13 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     const double mass = measures.integrals.molecules;
     if (bulk_) diagnostics.bulk = bulk_->take({space_, energy, numbers, bdf, trial.solution}, state_.masses, mass, tau);
 
-    const double tolerance = step_tolerance(parameters_), of_position = position_tolerance(parameters_);
+    const double tolerance = step_tolerance(parameters_);
     const double fraction = known > order ? error_fraction(end, state_.times, order) : 0;
     TriedStep& tried = trial.tried;
     tried.tau = tau;
     tried.order = order;
-    tried.wrong_position = fraction * measures.step_difference / (early_part(end, parameters_) * of_position);
+    tried.early = state_.steps < first_steps;
+    tried.wrong_position = fraction * measures.step_difference / allowed;
     // A bulk that is being depleted changes the rate at which molecules come in times of its own.
     if (bulk_) tried.wrong_molecules = fraction * std::abs(mass / numbers.molecules - 1) / tolerance;
     tried.motion = measures.layer_motion / (largest_motion * parameters_.phase_field.epsilon);

@@ -26,7 +26,7 @@ constexpr double retry = constant("retry");
 
 /// By which the next step may be longer, as far as error and motion go.
 double growth(const TriedStep& tried) {
-    double factor = largest_growth;
+    double factor = tried.early ? 1 : largest_growth;
     const double wrong = std::max(tried.wrong_position, tried.wrong_molecules);  // 0 lets it grow as far as it may
     factor = std::min(factor, safety * std::pow(wrong, -1 / (1 + static_cast<double>(tried.order))));
     return tried.motion > 0 ? std::min(factor, safety / tried.motion) : factor;

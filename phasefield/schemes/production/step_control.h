@@ -17,7 +17,7 @@ inline constexpr double largest_motion = constant("largest_motion");
 /// The same of the membrane's position [nm], over the circumference of what forms.
 [[nodiscard]] double position_tolerance(const Parameters& parameters);
 /// The part of it that a step may have which ends at `time` [µs]: ∛(t/T), T being structure_time, because a membrane
-/// that has just begun to move has not come far; from a tenth, which Newton's method resolves, to 1.
+/// that has just begun to move has not come far; from a tenth to 1.
 [[nodiscard]] double early_part(double time, const Parameters& parameters);
 
 /// The first step [µs]: time.initial_step, or where that is 0 a part of first_step, for it is of order 1.
@@ -27,6 +27,7 @@ inline constexpr double largest_motion = constant("largest_motion");
 struct TriedStep {
     double tau = 0;  // [µs]
     std::size_t order = 1;
+    bool early = false;          // its error cannot be estimated well
     double wrong_position = 0;   // errors over those allowed, 0 where they are not known
     double wrong_molecules = 0;  // of ∫ c dA, where a bulk is depleted
     double motion = 0;           // of the layer, over the largest allowed

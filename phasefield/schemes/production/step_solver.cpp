@@ -38,8 +38,7 @@ void Backoff::note(bool failed) {
     steps_ = failures_ < 2 ? 0 : 1U << (failures_ - 2);
 }
 
-StepSolver::StepSolver(const Parameters& parameters, MPI_Comm communicator, double wanted)
-    : factors_(parameters, communicator), wanted_(wanted) {
+StepSolver::StepSolver(const Parameters& parameters, MPI_Comm communicator) : factors_(parameters, communicator) {
     const Scales by = scales(parameters);
     for (const auto& unknown : unknowns()) least_.push_back(round_off * unknown.size(by));
 }
@@ -94,7 +93,8 @@ StepSolver::Ending StepSolver::iterate_with_new_factors(const StepProblem& probl
     }
 }
 
-void StepSolver::solve(const StepProblem& problem, Vector& solution) {
+void StepSolver::solve(const StepProblem& problem, Vector& solution, double wanted) {
+    wanted_ = wanted;
     const Precision precision = factors_.precision();
     const Vector guess = solution;
     const auto start_again = [&] {

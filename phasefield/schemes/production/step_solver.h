@@ -22,16 +22,15 @@ class Backoff {
 /// are; then by new ones of single precision, at most of double precision.
 class StepSolver {
   public:
-    /// `wanted`: the change of ψ in the layer [nm] to which the method converges.
-    StepSolver(const Parameters& parameters, MPI_Comm communicator, double wanted);
+    StepSolver(const Parameters& parameters, MPI_Comm communicator);
 
     /// The mesh has changed: nothing is left of the factors.
     void reinit(const Space& space, const MembraneCurve& membrane) { factors_.reinit(space, membrane); }
 
-    /// `solution` holds the guess, then the solution, both with ghost values.
-    /// Throws SolverError("newton-divergence", …); the next call starts with new factors. Throws Interrupted between
-    /// two iterations.
-    void solve(const StepProblem& problem, Vector& solution);
+    /// `solution` holds the guess, then the solution, both with ghost values. `wanted`: the change of ψ in the layer
+    /// [nm] to which the method converges. Throws SolverError("newton-divergence", …); the next call starts with new
+    /// factors. Throws Interrupted between two iterations.
+    void solve(const StepProblem& problem, Vector& solution, double wanted);
 
     [[nodiscard]] const StepFactors& factors() const { return factors_; }
     [[nodiscard]] unsigned int iterations() const { return iterations_; }
@@ -59,7 +58,7 @@ class StepSolver {
     StepFactors factors_;
     Backoff old_factors_, single_precision_;
     unsigned int iterations_ = 0, single_precision_failed_ = 0;
-    double wanted_;
+    double wanted_ = 0;
     std::vector<double> least_;  // first increments that count, field by field
     std::string changes_;        // of ψ, for the error message
 };
