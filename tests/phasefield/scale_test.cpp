@@ -38,8 +38,8 @@ Reached after_steps(const Parameters& p, int steps) {
     return out;
 }
 
-/// Newton's method ends at 2·10⁻² of what a step may have, a tenth of the tolerance so early: here 2·10⁻⁸ nm. The volume
-/// is that of a mean displacement of 2·10⁻³ nm. A constant with a unit shows at 10⁻⁴ and more.
+/// Newton's method ends at 2·10⁻² of what a step may have, a tenth of the tolerance so early: here 2·10⁻⁸ nm. The
+/// volume is that of a mean displacement of 2·10⁻³ nm. A constant with a unit shows at 10⁻⁴ and more.
 constexpr double solver = 1e-6, tolerance = 2e-6;
 
 void check_equal(const Reached& a, const Reached& b, double time, double length) {
