@@ -84,16 +84,17 @@ std::vector<unsigned int> parts_along(const MembraneCurve& membrane, const Space
         for (std::size_t face = 0; face < below.size(); ++face) count += below[face] < cut && cut <= above[face];
         return count;
     };
-    const double part = static_cast<double>(cells.size()) / processes;
+    const auto n_cells = static_cast<double>(cells.size());
+    const double part = n_cells / processes;
+    const auto index = [n_cells](double place) {
+        return static_cast<std::size_t>(std::clamp(place, 0.0, n_cells - 1));  // the first and last parts may be small
+    };
     std::vector<double> cuts;
     for (unsigned int k = 1; k < processes; ++k) {
-        const double middle = share_of_cells(last, static_cast<double>(k) / processes) * processes;
-        const auto first = static_cast<std::size_t>((middle - slack) * part),
-                   end = static_cast<std::size_t>((middle + slack) * part),
-                   equal = static_cast<std::size_t>(middle * part);
-        double best = cells[equal];
+        const double middle = share_of_cells(last, static_cast<double>(k) / processes) * n_cells;
+        double best = cells[index(middle)];
         std::size_t fewest = faces_met(best);
-        for (std::size_t i = first; i <= end; ++i) {
+        for (std::size_t i = index(middle - slack * part); i <= index(middle + slack * part); ++i) {
             const std::size_t met = faces_met(cells[i]);
             if (met < fewest) {
                 fewest = met;

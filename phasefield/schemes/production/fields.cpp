@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "phasefield/contour/layer_thickness.h"
 #include "phasefield/layer/constants.h"
 #include "shared/model/time_scale.h"
 
@@ -27,7 +26,7 @@ bool at_rim(BoundaryId boundary, double above, double half_width) {
     return boundary == side && std::abs(above) * (1 - 1e-12) <= half_width;
 }
 double layer_half_width(const Parameters& p) {
-    return std::max(p.domain.pin_half_width, rim_half_width * widest_layer(p, p.domain.radius));
+    return std::max(p.domain.pin_half_width, rim_half_width * p.phase_field.epsilon);
 }
 
 bool without_flow(const Parameters& p) {

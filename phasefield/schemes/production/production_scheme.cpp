@@ -172,11 +172,9 @@ StepOutcome ProductionScheme::attempt(double time, double tau) {
     balance_molecules(bdf, measures, trial.solution);
     auto& diagnostics = measures.diagnostics;
     diagnostics.net_vertical_force = net_vertical_force(problem, trial.solution);
-    diagnostics.extracellular_inflow =
-        extracellular_inflow(space_, trial.solution, velocity_r, velocity_z, distance,
-                             [epsilon = widest_layer(parameters_, parameters_.domain.radius)](double psi) {
-                                 return equilibrium_profile(psi, epsilon);
-                             });
+    diagnostics.extracellular_inflow = extracellular_inflow(
+        space_, trial.solution, velocity_r, velocity_z, distance,
+        [epsilon = parameters_.phase_field.epsilon](double psi) { return equilibrium_profile(psi, epsilon); });
     diagnostics.load_power = load_power(problem, trial.solution);
     trial.integrals = measures.integrals;
     trial.layer_motion = measures.layer_motion;

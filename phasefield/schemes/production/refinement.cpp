@@ -126,9 +126,12 @@ std::vector<RefinedBand> refined_bands(const MembraneCurve& curve, const Paramet
     const auto thickness = thickness_along(curve, parameters);
     const Path path(curve, thickness, p.epsilon, follow_after_motion(parameters));
     std::vector<RefinedBand> out;
+    const auto add_points = [&](const std::vector<RefinedBand::Point>& points, int halvings) {
+        out.push_back(
+            {points, static_cast<unsigned int>(level_of_layer + halvings), std::ldexp(p.cell_size, -halvings)});
+    };
     const auto add = [&](const Indices& part, double layers, int halvings) {
-        out.push_back({path.around(part, layers), static_cast<unsigned int>(level_of_layer + halvings),
-                       std::ldexp(p.cell_size, -halvings)});
+        add_points(path.around(part, layers), halvings);
     };
     const auto halvings_to = [&](double size) {
         return static_cast<int>(std::max(0.0, std::ceil(std::log2(p.cell_size / size))));
@@ -137,9 +140,7 @@ std::vector<RefinedBand> refined_bands(const MembraneCurve& curve, const Paramet
     if (edge_levels > 0) add(patch_edge(curve), fine_band, edge_levels);
     if (parameters.domain.kind == DomainKind::box && parameters.fluid.dynamics == Dynamics::flow) {
         const int pin_levels = halvings_to(pin_cells * parameters.domain.pin_half_width);
-        const double size = std::ldexp(p.cell_size, -pin_levels);
-        out.push_back(
-            {pin_ends(parameters.domain, 1e-3 * size), static_cast<unsigned int>(level_of_layer + pin_levels), size});
+        add_points(pin_ends(parameters.domain, 1e-3 * std::ldexp(p.cell_size, -pin_levels)), pin_levels);
     }
     const double widest = *std::ranges::max_element(thickness);
     int halvings = -std::min(level_of_layer, static_cast<int>(std::log2(cells_slack * widest / p.epsilon)));
