@@ -37,13 +37,13 @@ MeshMotion::MeshMotion(const MembraneSpace& space, const MeshDensity& density, M
       carrier_(carrier),
       radial_points_(space.radial().greville_points()),
       axial_points_(space.axial().greville_points()),
-      radial_interpolation_(collocation_matrix(space.radial(), radial_points_), "interpolation"),
-      axial_interpolation_(collocation_matrix(space.axial(), axial_points_), "interpolation"),
-      filter_(one_dimensional_matrix(space, space.axial_rows, space.axial_count(),
-                                     density.smoothing * density.smoothing, 1.0),
-              "mesh filter"),
-      antiderivative_(one_dimensional_matrix(space, space.radial_rows, space.radial_count(), 1.0, 0.0),
-                      "antiderivative"),
+      radial_interpolation_(inverse(collocation_matrix(space.radial(), radial_points_), "interpolation")),
+      axial_interpolation_(inverse(collocation_matrix(space.axial(), axial_points_), "interpolation")),
+      filter_(inverse(one_dimensional_matrix(space, space.axial_rows, space.axial_count(),
+                                             density.smoothing * density.smoothing, 1.0),
+                      "mesh filter")),
+      antiderivative_(
+          inverse(one_dimensional_matrix(space, space.radial_rows, space.radial_count(), 1.0, 0.0), "antiderivative")),
       identity_(Eigen::VectorXd::Zero(space.radial_count())) {
     if (space.end() == CurveEnd::clamped) {
         identity_ = Eigen::Map<const Eigen::VectorXd>(radial_points_.data(), space.radial_count());
@@ -67,7 +67,7 @@ std::vector<double> MeshMotion::filtered_density(const MembraneSamples& samples)
         const BasisRow& b = space_.axial_rows[i];
         for (std::size_t j = 0; j < 6; ++j) right[b.index[j]] += space_.weight[i] * wanted * b.value[0][j];
     }
-    return values_at_points(space_.axial_rows, filter_.solve(right));
+    return values_at_points(space_.axial_rows, filter_ * right);
 }
 
 // ∫ B' (N - ξ)' dξ = ∫ B' (ρ g/total - 1) dξ; mirrored at both ends, the 1 has no part in the space.
@@ -81,7 +81,7 @@ Eigen::VectorXd MeshMotion::numbers_ahead(const MembraneSamples& samples) const 
         const BasisRow& b = space_.radial_rows[i];
         for (std::size_t j = 0; j < 6; ++j) right[b.index[j]] += value * b.value[1][j];
     }
-    return antiderivative_.solve(right / total) - identity_;
+    return antiderivative_ * right / total - identity_;
 }
 
 template <class Speed>
@@ -99,7 +99,7 @@ Eigen::VectorXd MeshMotion::interpolate_tangential(const MembraneState& state, S
         z(static_cast<Index>(i), 0) = speed(axial_points_[i], p) * p.z1 / p.g;
     }
     Eigen::VectorXd field(space_.curve_count());
-    field << radial_interpolation_.solve(r), axial_interpolation_.solve(z);
+    field << radial_interpolation_ * r, axial_interpolation_ * z;
     return field;
 }
 
@@ -172,19 +172,18 @@ MeshMotion::Derivatives MeshMotion::derivatives(const MembraneState& state, cons
             }
         }
     }
-    const Eigen::MatrixXd density_variation = filter_.solve(std::move(wanted));
+    const Eigen::MatrixXd density_variation = filter_ * wanted;
     right += right_by_density * density_variation;
     total_variation += total_by_density * density_variation;
     const Eigen::VectorXd ahead_of_xi = numbers_ahead(samples);
-    const Eigen::MatrixXd variation =
-        (antiderivative_.solve(std::move(right)) - (ahead_of_xi + identity_) * total_variation) / total;
+    const Eigen::MatrixXd variation = (antiderivative_ * right - (ahead_of_xi + identity_) * total_variation) / total;
 
-    // α t = α_0 x'/g - (N - ξ) x'/(τ N') at the interpolation points, by (r, z, c), by the velocity (both
-    // components) and by the inflow.
-    const Index by_velocity = variables, by_inflow = variables + curve;
+    // α t = α_0 x'/g - (N - ξ) x'/(τ N') at the interpolation points, by (r, z, c), by the inflow and, where it counts,
+    // by the velocity (both components).
+    const bool carried = carrier_ == MeshCarrier::normal_motion;
+    const Index by_inflow = variables, by_velocity = variables + 1, columns = by_velocity + (carried ? curve : 0);
     const double rate = 1.0 / density_.relaxation_time;
-    Eigen::MatrixXd r = Eigen::MatrixXd::Zero(offset, by_inflow + 1),
-                    z = Eigen::MatrixXd::Zero(axial_count, by_inflow + 1);
+    Eigen::MatrixXd r = Eigen::MatrixXd::Zero(offset, columns), z = Eigen::MatrixXd::Zero(axial_count, columns);
     const Eigen::VectorXd u_r = velocity.head(offset), u_z = velocity.tail(axial_count);
     const auto fill = [&](double xi, bool radial, auto row) {
         const BasisRow b = space_.radial().basis(xi);
@@ -203,6 +202,7 @@ MeshMotion::Derivatives MeshMotion::derivatives(const MembraneState& state, cons
             row(offset + a.index[j]) += (turning * p.normal_z + tangent * s.by_z1) * a.value[1][j];
             row(radial ? b.index[j] : offset + a.index[j]) -=
                 rate * ahead / slope * (radial ? b.value[1][j] : a.value[1][j]);
+            if (!carried) continue;
             row(by_velocity + b.index[j]) += tangent * s.by_u_r * b.value[0][j];
             row(by_velocity + offset + a.index[j]) += tangent * s.by_u_z * a.value[0][j];
         }
@@ -210,14 +210,12 @@ MeshMotion::Derivatives MeshMotion::derivatives(const MembraneState& state, cons
     };
     for (std::size_t i = 0; i < radial_points_.size(); ++i) fill(radial_points_[i], true, r.row(static_cast<Index>(i)));
     for (std::size_t i = 0; i < axial_points_.size(); ++i) fill(axial_points_[i], false, z.row(static_cast<Index>(i)));
-    radial_interpolation_.solve_in_place(r);
-    axial_interpolation_.solve_in_place(z);
-    Eigen::MatrixXd all(curve, by_inflow + 1);
-    all << r, z;
+    Eigen::MatrixXd all(curve, columns);
+    all << radial_interpolation_ * r, axial_interpolation_ * z;
     Derivatives result;
     result.by_curve = all.leftCols(curve);
     result.by_concentration = all.middleCols(curve, axial_count);
-    if (carrier_ == MeshCarrier::normal_motion) result.by_velocity = all.middleCols(by_velocity, curve);
+    if (carried) result.by_velocity = all.middleCols(by_velocity, curve);
     result.by_inflow = all.col(by_inflow);
     return result;
 }

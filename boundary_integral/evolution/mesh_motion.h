@@ -51,7 +51,7 @@ class MeshMotion {
     MeshDensity density_;
     MeshCarrier carrier_;
     std::vector<double> radial_points_, axial_points_;  // Greville points of the two spaces
-    LuFactors radial_interpolation_, axial_interpolation_, filter_, antiderivative_;
+    Eigen::MatrixXd radial_interpolation_, axial_interpolation_, filter_, antiderivative_;  // inverses
     Eigen::VectorXd identity_;  // ξ itself in the radial space, as far as its ends let it
 
     [[nodiscard]] double wanted_density(const CurvePoint& p, double c1) const;

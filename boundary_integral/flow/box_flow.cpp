@@ -9,14 +9,13 @@
 namespace endoflow::boundary_integral {
 
 namespace {
-constexpr int nodes_per_wall_panel = 8;
-constexpr Index elimination_blocks = 8;
+constexpr Index elimination_blocks = 4;
 }  // namespace
 
 BoxFlow::BoxFlow(const Parameters& parameters, const MembraneSpace& space)
     : FlowModel(space, {parameters.membrane.inextensible, false}),
       collocation_(space, parameters.fluid),
-      walls_(parameters.domain, parameters.fluid, nodes_per_wall_panel),
+      walls_(parameters.domain, parameters.fluid),
       threads_(thread_count(parameters.boundary_integral.threads)) {
     const auto& nodes = walls_.nodes();
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -30,7 +29,7 @@ BoxFlow::BoxFlow(const Parameters& parameters, const MembraneSpace& space)
         matrix(2 * node, 2 * node) += own;
         if (!walls_.is_band(nodes[i])) matrix(2 * node + 1, 2 * node + 1) += own;
     }
-    wall_factors_.emplace(Eigen::MatrixXd(matrix), "wall");
+    wall_inverse_ = inverse(matrix, "wall");
 }
 
 ///   4 π (ν₁ + ν₂) u + (ν₁ - ν₂) D u + W v = S f                  on the membrane
@@ -44,14 +43,13 @@ MobilityOperators BoxFlow::operators(const MembraneState& state, const MembraneS
     MembraneLayers at_walls = membrane_layers(space(), state, samples, wall_targets_, walls_.unknowns(), quadrature);
     const RowMatrix from_walls = wall_layers(walls_, targets, collocation_.rows(), threads_);
 
-    // Z^T = A_w^-T W^T: one wall solve per membrane row serves both right-hand sides. The rows are independent of each
-    // other; they are cut into blocks that do not depend on the number of threads, so that results do not either.
+    // The rows are independent of each other; they are cut into blocks that do not depend on the number of threads, so
+    // that results do not either.
     const auto eliminate = [&](Index begin, Index end) {
         const Index count = end - begin;
-        const Eigen::MatrixXd response =
-            wall_factors_->solve_transposed(from_walls.middleRows(begin, count).transpose());
-        equation.velocity.middleRows(begin, count).noalias() -= contrast * (response.transpose() * at_walls.doubled);
-        equation.force.middleRows(begin, count).noalias() -= response.transpose() * at_walls.single;
+        const RowMatrix response = from_walls.middleRows(begin, count) * wall_inverse_;
+        equation.velocity.middleRows(begin, count).noalias() -= contrast * (response * at_walls.doubled);
+        equation.force.middleRows(begin, count).noalias() -= response * at_walls.single;
     };
     const Index rows = collocation_.rows();
     parallel_parts(elimination_blocks, threads_, [&](Index first, Index last) {
@@ -70,7 +68,7 @@ MobilityOperators BoxFlow::operators(const MembraneState& state, const MembraneS
 }
 
 Eigen::VectorXd BoxFlow::wall_unknowns(const MobilityOperators& operators, const FlowSolution& flow) const {
-    return wall_factors_->solve(operators.wall_from_force * flow.force + operators.wall_from_velocity * flow.velocity);
+    return wall_inverse_ * (operators.wall_from_force * flow.force + operators.wall_from_velocity * flow.velocity);
 }
 
 FlowBalances flow_balances(const MembraneSpace& space, const BoxFlow& box, const MobilityOperators& operators,

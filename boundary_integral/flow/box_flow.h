@@ -4,7 +4,6 @@
 // contrast, inextensibility and inflow through the rim.
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "boundary_integral/flow/dense_solver.h"
@@ -32,7 +31,7 @@ class BoxFlow : public FlowModel {
     WallPanels walls_;
     int threads_;
     std::vector<LayerTarget> wall_targets_;
-    std::optional<LuFactors> wall_factors_;
+    RowMatrix wall_inverse_;  // A_w^-1
 };
 
 /// `samples`: the shape that moves with `flow`; that of the operators may be another, close one. Balances are relative

@@ -2,6 +2,7 @@
 
 // Dense LU factorisation with partial pivoting, column-major: by LAPACK (dgetrf/dgetrs), or by Eigen without it.
 
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,5 +25,11 @@ class LuFactors {
     Eigen::MatrixXd factors_;
     std::vector<int> pivots_;
 };
+
+/// The inverse of a matrix that is far from singular: products with it are three times as fast as solutions.
+[[nodiscard]] inline Eigen::MatrixXd inverse(Eigen::MatrixXd matrix, const char* what) {
+    const Eigen::Index size = matrix.rows();
+    return LuFactors(std::move(matrix), what).solve(Eigen::MatrixXd::Identity(size, size));
+}
 
 }  // namespace endoflow::boundary_integral

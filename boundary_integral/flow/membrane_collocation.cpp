@@ -25,6 +25,18 @@ Eigen::MatrixXd evaluation_rows(const MembraneSpace& space, Index rows) {
     return matrix;
 }
 
+/// Of a matrix whose rows from `split` on have nothing left of it.
+Eigen::MatrixXd triangular_inverse(const Eigen::MatrixXd& matrix, Index split, const char* what) {
+    const Index rest = matrix.rows() - split;
+    const Eigen::MatrixXd first = inverse(matrix.topLeftCorner(split, split), what);
+    const Eigen::MatrixXd second = inverse(matrix.bottomRightCorner(rest, rest), what);
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(matrix.rows(), matrix.cols());
+    result.topLeftCorner(split, split) = first;
+    result.topRightCorner(split, rest) = -first * (matrix.topRightCorner(split, rest) * second);
+    result.bottomRightCorner(rest, rest) = second;
+    return result;
+}
+
 }  // namespace
 
 MembraneCollocation::MembraneCollocation(const MembraneSpace& space, const FluidParameters& fluid)
@@ -78,8 +90,8 @@ MembraneCollocation::Equation MembraneCollocation::equation(const MembraneState&
 void MembraneCollocation::solve(const Equation& equation, MobilityOperators& operators) const {
     const VelocityFreedoms& freedoms = operators.freedoms;
     const LuFactors velocity(freedoms.restrict_columns(equation.velocity), "velocity");
-    const LuFactors mass(freedoms.restrict_rows(force_mass_matrix(space_, operators.samples)), "force mass");
-    operators.force_from_load = mass.solve(Eigen::MatrixXd::Identity(freedoms.count(), freedoms.count()));
+    operators.force_from_load = triangular_inverse(freedoms.restrict_rows(force_mass_matrix(space_, operators.samples)),
+                                                   freedoms.radial(), "force mass");
     operators.mobility = velocity.solve(equation.force * operators.force_from_load);
 }
 

@@ -6,31 +6,29 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
+/// The basis values of one point, or as many sums; anywhere in memory.
+using Lanes [[gnu::vector_size(basis_stride * sizeof(double)), gnu::aligned(alignof(double)), gnu::may_alias]] = double;
+
 ENDOFLOW_VECTOR_CLONES
 void four_sums(std::size_t elements, std::size_t points, const double* __restrict measure, const PointSum* four) {
-    const double* __restrict v0 = four[0].values;
-    const double* __restrict v1 = four[1].values;
-    const double* __restrict v2 = four[2].values;
-    const double* __restrict v3 = four[3].values;
+    const auto [b0, width0, v0, sums0] = four[0];
+    const auto [b1, width1, v1, sums1] = four[1];
+    const auto [b2, width2, v2, sums2] = four[2];
+    const auto [b3, width3, v3, sums3] = four[3];
+    const auto basis = [](const double* begin) -> const Lanes& { return *reinterpret_cast<const Lanes*>(begin); };
+    const auto sums = [](double* begin) -> Lanes& { return *reinterpret_cast<Lanes*>(begin); };
     for (std::size_t e = 0; e < elements; ++e) {
-        double a[basis_stride] = {}, b[basis_stride] = {}, c[basis_stride] = {}, d[basis_stride] = {};
+        Lanes a{}, b{}, c{}, d{};
         for (std::size_t i = e * points; i < (e + 1) * points; ++i) {
-            const double w0 = measure[i] * v0[i], w1 = measure[i] * v1[i];
-            const double w2 = measure[i] * v2[i], w3 = measure[i] * v3[i];
-            const double* b0 = four[0].basis + four[0].width * i;
-            const double* b1 = four[1].basis + four[1].width * i;
-            const double* b2 = four[2].basis + four[2].width * i;
-            const double* b3 = four[3].basis + four[3].width * i;
-            for (std::size_t j = 0; j < basis_stride; ++j) a[j] += w0 * b0[j];
-            for (std::size_t j = 0; j < basis_stride; ++j) b[j] += w1 * b1[j];
-            for (std::size_t j = 0; j < basis_stride; ++j) c[j] += w2 * b2[j];
-            for (std::size_t j = 0; j < basis_stride; ++j) d[j] += w3 * b3[j];
+            a += measure[i] * v0[i] * basis(b0 + width0 * i);
+            b += measure[i] * v1[i] * basis(b1 + width1 * i);
+            c += measure[i] * v2[i] * basis(b2 + width2 * i);
+            d += measure[i] * v3[i] * basis(b3 + width3 * i);
         }
-        const std::size_t begin = basis_stride * e;
-        for (std::size_t j = 0; j < basis_stride; ++j) four[0].sums[begin + j] = a[j];
-        for (std::size_t j = 0; j < basis_stride; ++j) four[1].sums[begin + j] = b[j];
-        for (std::size_t j = 0; j < basis_stride; ++j) four[2].sums[begin + j] = c[j];
-        for (std::size_t j = 0; j < basis_stride; ++j) four[3].sums[begin + j] = d[j];
+        sums(sums0 + basis_stride * e) = a;
+        sums(sums1 + basis_stride * e) = b;
+        sums(sums2 + basis_stride * e) = c;
+        sums(sums3 + basis_stride * e) = d;
     }
 }
 

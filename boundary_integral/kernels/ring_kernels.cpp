@@ -12,28 +12,25 @@ namespace {
 /// Six steps of the mean reach round-off for 1 - m > 1e-13, seven for every positive double above 1e-26.
 constexpr int mean_steps = 7;
 
-__attribute__((always_inline)) inline EllipticIntegrals integrals_by_mean(double complementary_parameter) {
-    const double root = std::sqrt(complementary_parameter);
-    double arithmetic = 0.5 * (1.0 + root);
-    double geometric = std::sqrt(root);
-    // c_1^2 with c_1 = (1 - root)/2 and c_1^2/m = (1 - root) / (4 (1 + root)): no division by m.
-    double difference_squared = 0.25 * (1.0 - root) * (1.0 - root);
-    double ratio = 0.25 * (1.0 - root) / (1.0 + root);  // c_n^2 / m
-    double power = 1.0;                                 // 2^(n-1)
-    double sum = 0.5 + ratio;                           // (1 - E/K) / m
-    for (int step = 1; step < mean_steps; ++step) {
+/// K, D and E of m and 1 - m, both known to full relative accuracy. (1 - E/K)/m = 1/2 + Σ 2^(n-1) c_n²/m with c_n half
+/// the difference of the two means: differences of numbers near 1 miss c_n by a round-off, so c_n²/m by no more than
+/// one, as c_n < m; below the least m the sum is less than that.
+__attribute__((always_inline)) inline EllipticIntegrals integrals_by_mean(double m, double complementary_parameter) {
+    constexpr double least = 1e-15;
+    double arithmetic = 1.0, geometric = std::sqrt(complementary_parameter);
+    double power = 1.0;  // 2^(n-1)
+    double squares = 0.0;
+    for (int step = 0; step < mean_steps; ++step) {
+        const double half_difference = 0.5 * (arithmetic - geometric);
+        squares += power * half_difference * half_difference;
+        power *= 2.0;
         const double next = 0.5 * (arithmetic + geometric);
         geometric = std::sqrt(arithmetic * geometric);
         arithmetic = next;
-        const double contraction = difference_squared / (16.0 * arithmetic * arithmetic);  // c_{n+1}^2 / c_n^2
-        ratio *= contraction;
-        difference_squared *= contraction;
-        power *= 2.0;
-        sum += power * ratio;
     }
     EllipticIntegrals result{};
     result.k = (0.5 * std::numbers::pi) / arithmetic;
-    result.d = result.k * sum;
+    result.d = result.k * (0.5 + squares / (m > least ? m : least));
     result.b = result.k - result.d;
     result.e = result.b + complementary_parameter * result.d;  // E = B + (1-m) D: all terms positive
     return result;
@@ -45,13 +42,13 @@ void stokeslet_loop(double r0, std::size_t count, const double* __restrict r, co
                     double* __restrict g_zr, double* __restrict g_zz) {
     for (std::size_t i = 0; i < count; ++i) {
         const double a = dr[i] * dr[i] + dz[i] * dz[i];
-        const double total = a + 4.0 * r[i] * r0;
-        const EllipticIntegrals elliptic = integrals_by_mean(a / total);
-        const double scale = 4.0 / std::sqrt(total);
+        const double b = 4.0 * r[i] * r0, inverse_total = 1.0 / (a + b);
+        const EllipticIntegrals elliptic = integrals_by_mean(b * inverse_total, a * inverse_total);
+        const double scale = 4.0 * std::sqrt(inverse_total);
         const double i10 = scale * elliptic.k;
         const double i11 = scale * elliptic.b;
         const double i30 = scale * elliptic.e / a;
-        const double i31 = scale * elliptic.d / total;
+        const double i31 = scale * elliptic.d * inverse_total;
         g_rr[i] = i10 - 2.0 * i11 + dr[i] * dr[i] * (i30 - 2.0 * i31) - (i11 - a * i31);
         g_rz[i] = dz[i] * (dr[i] * i30 - 2.0 * r[i] * i31);
         g_zr[i] = dz[i] * (dr[i] * i30 + 2.0 * r0 * i31);
@@ -69,14 +66,14 @@ __attribute__((always_inline)) inline KernelPoint kernels_at(double r0, double r
                                                              double n0) {
     const double q = 2.0 * r0;
     const double a = d * d + z * z;
-    const double total = a + 4.0 * r * r0;
-    const double inverse_total = 1.0 / total;
+    const double b = 4.0 * r * r0;
+    const double inverse_total = 1.0 / (a + b);
     const double mc = a * inverse_total;
-    const EllipticIntegrals elliptic = integrals_by_mean(mc);
+    const EllipticIntegrals elliptic = integrals_by_mean(b * inverse_total, mc);
     const double scale = 4.0 * std::sqrt(inverse_total);
     const double i10 = scale * elliptic.k;
     const double i11 = scale * elliptic.b;
-    const double inverse_a = 1.0 / a;
+    const double inverse_a = 1.0 / a, inverse_r = 1.0 / r;
     const double i30 = scale * elliptic.e * inverse_a;
     const double i31 = scale * elliptic.d * inverse_total;
     const double b_i32 = i11 - a * i31;  // b * i32
@@ -89,14 +86,15 @@ __attribute__((always_inline)) inline KernelPoint kernels_at(double r0, double r
     const double third = scale * (1.0 / 3.0) * inverse_a;
     const double i50 = third * inverse_a * (2.0 * (1.0 + mc) * elliptic.e - mc * elliptic.k);
     const double i51 = third * inverse_total * (2.0 * elliptic.e - elliptic.b);
-    const double b_i52 = i31 - a * i51;                      // b * i52
-    const double q_b_i53 = (b_i32 - a * b_i52) / (2.0 * r);  // 2 r0 b * i53
-    const double n1 = q * nr;                                // x.n = n0 + n1 σ
+    const double b_i52 = i31 - a * i51;                            // b * i52
+    const double q_b_i53 = 0.5 * (b_i32 - a * b_i52) * inverse_r;  // 2 r0 b * i53
+    const double n1 = q * nr;                                      // x.n = n0 + n1 σ
     const double t_common = z * (d * (n0 * i50 + n1 * i51));
     kernels.t_zz = -6.0 * z * z * (n0 * i50 + n1 * i51);
-    kernels.t_zr = -6.0 * (t_common + z * (q * n0 * i51 + nr * (r0 / r) * b_i52));
+    kernels.t_zr = -6.0 * (t_common + z * (q * n0 * i51 + nr * r0 * inverse_r * b_i52));
     kernels.t_rz = -6.0 * (t_common - z * (2.0 * r * n0 * i51 + nr * b_i52));
-    kernels.t_rr = -6.0 * (d * d * (n0 * i50 + (n1 - 2.0 * n0) * i51 - nr * b_i52 / r) - n0 * b_i52 - nr * q_b_i53);
+    kernels.t_rr =
+        -6.0 * (d * d * (n0 * i50 + (n1 - 2.0 * n0) * i51 - nr * b_i52 * inverse_r) - n0 * b_i52 - nr * q_b_i53);
     kernels.p_r = d * i30 + q * i31;
     kernels.p_z = z * i30;
     return kernels;
@@ -146,7 +144,7 @@ void RingSources::resize(std::size_t count) {
 }
 
 EllipticIntegrals elliptic_integrals(double complementary_parameter) {
-    return integrals_by_mean(complementary_parameter);
+    return integrals_by_mean(1.0 - complementary_parameter, complementary_parameter);
 }
 
 void RingDensities::resize(std::size_t count) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "boundary_integral/membrane/curve_variables.h"
+#include "shared/numerics/vector_clones.h"
 
 namespace endoflow::boundary_integral {
 
@@ -72,6 +73,22 @@ void add_of_curve(EnergyJet& sum, double factor, const CurveJet& x) {
         for (std::size_t j = 0; j < curve_variables; ++j) sum.second[i][j] += factor * x.second[i][j];
 }
 
+/// At one point, in one piece for the vector unit: the density to first order,
+ENDOFLOW_VECTOR_CLONES [[gnu::flatten]] void density_at(const MembraneEnergy& energy, const CurvePoint& p, double c,
+                                                        double c1, EnergyDual& density) {
+    density = energy_per_length(energy, geometry<CurveDual>(p), c, c1);
+}
+
+/// and to second, with what the multipliers add to its Hessian.
+ENDOFLOW_VECTOR_CLONES [[gnu::flatten]] void density_at(const MembraneEnergy& energy, const CurvePoint& p, double c,
+                                                        double c1, double tension, double pressure,
+                                                        EnergyJet& density) {
+    const auto at = geometry<CurveJet>(p);
+    density = energy_per_length(energy, at, c, c1);
+    if (tension != 0) add_of_curve(density, tension, at[2]);
+    if (pressure != 0) add_of_curve(density, pressure, volume_jet(p));
+}
+
 Direction hessian_times(const EnergyJet& jet, const Slot& slot) {
     Direction result;
     for (std::size_t i = 0; i < variable_count; ++i) result[i] = dot(jet.second[i], slot);
@@ -120,21 +137,22 @@ EnergyDerivatives energy_derivatives(const MembraneSpace& space, const MembraneS
         result.mixed = Eigen::MatrixXd::Zero(space.curve_count(), space.axial_count());
         result.second_c = Eigen::MatrixXd::Zero(space.axial_count(), space.axial_count());
     }
+    const bool tense = multipliers.tension.size() > 0;
     for (std::size_t i = 0; i < space.xi.size(); ++i) {
         const CurvePoint p = curve_point(space.radial_rows[i], space.axial_rows[i], state);
         const double c = space.axial_rows[i].evaluate(state.c, 0), c1 = space.axial_rows[i].evaluate(state.c, 1);
         const LocalSlots slots = local_slots(space.radial_rows[i], space.axial_rows[i], space.radial_count());
         const double weight = space.weight[i];
         if (wanted == Derivatives::first) {
-            add_first_derivatives(energy_per_length(energy, geometry<CurveDual>(p), c, c1), weight, slots, result);
+            EnergyDual density;
+            density_at(energy, p, c, c1, density);
+            add_first_derivatives(density, weight, slots, result);
             continue;
         }
-        const auto at = geometry<CurveJet>(p);
-        EnergyJet density = energy_per_length(energy, at, c, c1);
+        const double tension = tense ? space.tension_rows[i].evaluate(multipliers.tension) : 0.0;
+        EnergyJet density;
+        density_at(energy, p, c, c1, tension, multipliers.pressure, density);
         add_first_derivatives(density, weight, slots, result);
-        if (multipliers.tension.size() > 0)
-            add_of_curve(density, space.tension_rows[i].evaluate(multipliers.tension), at[2]);
-        if (multipliers.pressure != 0) add_of_curve(density, multipliers.pressure, volume_jet(p));
         add_second_derivatives(density, weight, slots, result);
     }
     return result;

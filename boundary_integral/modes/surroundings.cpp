@@ -12,8 +12,7 @@ namespace endoflow::boundary_integral {
 
 namespace {
 
-constexpr int nodes_per_wall_panel = 8;  // as for the axisymmetric flow, whose wall unknowns are part of the base state
-constexpr double slack = 1e-12;          // in xi
+constexpr double slack = 1e-12;  // in xi
 
 std::vector<double> united(const std::vector<ModeSpace>& spaces) {
     std::vector<double> points;
@@ -41,7 +40,7 @@ Surroundings::Surroundings(const Parameters& parameters, const MembraneSpace& sp
     for (int mode = 0; mode <= highest_mode; ++mode) spaces_.emplace_back(space, parities_, mode);
     points_ = united(spaces_);
     if (parameters.domain.kind != DomainKind::box) return;
-    walls_.emplace(parameters.domain, parameters.fluid, nodes_per_wall_panel);
+    walls_.emplace(parameters.domain, parameters.fluid);
     wall_factors_ = mode_wall_factors(*walls_, highest_mode, threads_);
 }
 

@@ -20,10 +20,11 @@ void LayerSums::finish() {
         four[k] = {table.values(entry.group), table.width(), entry.kernel, sums_[k].data()};
     }
     point_sums(pieces, per_piece, points_->measure.data(), four);
-    for (std::size_t k = 0; k < count_; ++k) {
-        const auto& [columns, group, kernel, row] = entries_[k];
-        double* begin = columns->matrix->row(row).data() + columns->first;
-        for (std::size_t piece = 0; piece < pieces; ++piece) {
+    // Pieces side by side share entries of a row: one row after the other would wait for its own sums.
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+        for (std::size_t k = 0; k < count_; ++k) {
+            const auto& [columns, group, kernel, row] = entries_[k];
+            double* begin = columns->matrix->row(row).data() + columns->first;
             points_->basis[columns->table].scatter(piece, group, &sums_[k][basis_stride * piece], columns->factor,
                                                    begin, columns->stride);
         }

