@@ -263,6 +263,7 @@ class RunLoop {
         // One unit of error: time.tolerance nm in the curve, time.tolerance in the concentration.
         problem.error_scales =
             dynamics_.error_scales(dynamics_.initial_vector(), parameters_.time.tolerance, parameters_.time.tolerance);
+        problem.allowed_part = [this](double time) { return early_part(time, parameters_); };
         return problem;
     }
 

@@ -36,12 +36,14 @@ void StiffIntegrator::set_up(const StartingPoint& start, const StepLimits& limit
     };
     const auto jacobian = [](sunrealtype, N_Vector y, N_Vector, SUNMatrix matrix, void* self, N_Vector, N_Vector,
                              N_Vector) { return static_cast<StiffIntegrator*>(self)->jacobian(y, matrix); };
+    const auto weigh = [](N_Vector, N_Vector weights, void* self) {
+        values_of(weights) = static_cast<StiffIntegrator*>(self)->allowed_errors().cwiseInverse();
+        return 0;
+    };
     require_success(CVodeInit(cvode, rate, start.time, y_.get()), "CVodeInit");
     require_success(note_errors(cvode, context_, reason_), "the error handler");
     require_success(CVodeSetUserData(cvode, this), "CVodeSetUserData");
-    const VectorHandle scales = new_vector(start.y.size(), context_);
-    values_of(scales.get()) = problem_.error_scales;
-    require_success(CVodeSVtolerances(cvode, 0.0, scales.get()), "CVodeSVtolerances");
+    require_success(CVodeWFtolerances(cvode, weigh), "CVodeWFtolerances");
     require_success(CVodeSetLinearSolver(cvode, solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
     require_success(CVodeSetJacFn(cvode, jacobian), "CVodeSetJacFn");
     require_success(CVodeSetLSetupFrequency(cvode, 1), "CVodeSetLSetupFrequency");
@@ -147,9 +149,13 @@ StartingPoint StiffIntegrator::start_from(double time, double first) {
 /// h with ½ h² |y''| = ¼ in units of the tolerance, y'' from the interpolant.
 double StiffIntegrator::first_step() const {
     if (last_order_ < 2) return last_step_;
-    const Eigen::VectorXd scaled = derivative(time_, 2).cwiseQuotient(problem_.error_scales);
+    const Eigen::VectorXd scaled = derivative(time_, 2).cwiseQuotient(allowed_errors());
     const double size = scaled.norm() / std::sqrt(static_cast<double>(scaled.size()));
     return size > 0.0 ? std::min(last_step_, std::sqrt(0.5 / size)) : last_step_;
+}
+
+Eigen::VectorXd StiffIntegrator::allowed_errors() const {
+    return problem_.allowed_part(time_) * problem_.error_scales;
 }
 
 Eigen::VectorXd StiffIntegrator::derivative(double time, int order) const {

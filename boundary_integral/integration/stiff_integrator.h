@@ -22,6 +22,7 @@ struct StiffProblem {
     std::function<Eigen::VectorXd(double time, const Eigen::VectorXd& y)> rate;  ///< F(t, y), per µs
     std::function<Eigen::MatrixXd()> jacobian;  ///< ∂F/∂y at the state of the last call of `rate`
     Eigen::VectorXd error_scales;               ///< absolute error that counts as one, by component
+    std::function<double(double time)> allowed_part = [](double) { return 1.0; };  ///< of these, for a step from there
 };
 
 /// A smaller step [µs] is a failure.
@@ -106,6 +107,7 @@ class StiffIntegrator {
     [[nodiscard]] int guarded(const Work& work);
     [[nodiscard]] int rate(double time, N_Vector y, N_Vector rate);
     [[nodiscard]] int jacobian(N_Vector y, SUNMatrix matrix);
+    [[nodiscard]] Eigen::VectorXd allowed_errors() const;  // of a step from time_
 };
 
 }  // namespace endoflow::boundary_integral

@@ -61,7 +61,6 @@ inline constexpr Constant constant_table[] = {
     {"default_tolerance", 1e-4, "", "time.tolerance where that is 0"},
     {"error_part", 0.05, "time.tolerance", "error of one step: the errors of the steps add up"},
     {"first_order_part", 0.125, "time.initial_step's default", "the first step, which is of order 1"},
-    {"least_early_part", 0.1, "", "of that error at least, where it is smaller early"},
     {"safety", 0.85, "", "of the step"},
     {"largest_growth", 1.5, "", "of the step, per step"},
     {"after_hard_step", 0.8, "",

@@ -16,6 +16,7 @@ namespace {
 constexpr double first_part = 1.9458e-4, longest_part = 3.8916;
 /// Of exchange_time.
 constexpr double longest_part_of_exchange = 0.02;
+constexpr double least_early_part = 0.1;
 
 }  // namespace
 
@@ -73,6 +74,10 @@ double first_step(const Parameters& p) {
 double longest_step(const Parameters& p) {
     if (p.time.max_step > 0) return p.time.max_step;
     return std::max(longest_part * structure_time(p), longest_part_of_exchange * exchange_time(p));
+}
+
+double early_part(double time, const Parameters& p) {
+    return std::clamp(std::cbrt(time / structure_time(p)), least_early_part, 1.0);
 }
 
 double time_tolerance(const Parameters& p, double chosen) {

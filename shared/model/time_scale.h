@@ -35,6 +35,10 @@ namespace endoflow {
 /// for an engine whose own control of steps needs a bound. The sharp engine's does not.
 [[nodiscard]] double longest_step(const Parameters& parameters);
 
+/// The part of its allowed error that a step at this time may have, ∛(t/T) with T the structure_time, between 0.1 and
+/// 1: what has formed by then is smaller.
+[[nodiscard]] double early_part(double time, const Parameters& parameters);
+
 /// time.tolerance, or what an engine chooses where that is 0.
 [[nodiscard]] double time_tolerance(const Parameters& parameters, double chosen);
 

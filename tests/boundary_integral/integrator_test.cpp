@@ -79,6 +79,21 @@ TEST_CASE("the error follows the tolerance, and the order follows the error", "[
     CHECK(steps_of_all_orders == fine.steps);
 }
 
+TEST_CASE("a step may have the part of the error that is allowed when it starts", "[integrator]") {
+    const double change = 1, tolerance = 1e-5, part = 0.01;
+    StiffProblem p = problem(tolerance);
+    p.allowed_part = [=](double time) { return time < change ? part : 1; };
+    StiffIntegrator early(p, beginning, limits), strict(problem(part * tolerance), beginning, limits);
+    while (early.time() < change) {
+        early.advance(5);
+        strict.advance(5);
+        CHECK(early.time() == Approx(strict.time()).epsilon(1e-12));  // the same steps, but for round-off in weights
+    }
+    integrate(early, 5);
+    integrate(strict, 5);
+    CHECK(early.statistics().steps < strict.statistics().steps);
+}
+
 TEST_CASE("what is made for a step is made once for each attempted step", "[integrator]") {
     StiffProblem p = problem(1e-6);
     long begun = 0;

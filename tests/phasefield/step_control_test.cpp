@@ -19,9 +19,9 @@ using namespace endoflow::phasefield::paper;
 TEST_CASE("a production step that ends early may have a smaller error", "[control]") {
     const Parameters p;
     const double T = structure_time(p);
-    CHECK(production::early_part(0.125 * T, p) == Approx(0.5));
-    CHECK(production::early_part(3 * T, p) == 1);
-    CHECK(production::early_part(1e-9 * T, p) == 0.1);
+    CHECK(early_part(0.125 * T, p) == Approx(0.5));
+    CHECK(early_part(3 * T, p) == 1);
+    CHECK(early_part(1e-9 * T, p) == 0.1);
     // The error over what is allowed is what the next step follows: 0.5^(1/4) of the length for half of it.
     production::TriedStep tried{.tau = 1e-3, .order = 3, .wrong_position = 2};
     tried.change = 1e3;

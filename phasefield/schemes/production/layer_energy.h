@@ -92,8 +92,7 @@ class SheetEnergy {
     /// e* at the two moments of a point: what its derivatives of all kinds are made from.
     SheetEnergy(const LayerEnergy& energy, const SheetPoint<double>& x, double epsilon)
         : at_p_(energy.density.conjugate(x.p, x.c, x.squared_gradient)),
-          at_q_(energy.density.conjugate(x.p - shift(x, epsilon) * at_p_.value, x.c, x.squared_gradient,
-                                         at_p_.partial[local::moment])) {}
+          at_q_(at_moment(energy, x, x.p - shift(x, epsilon) * at_p_.value)) {}
 
     /// e*_ε [pN/nm] at the same point in any numbers.
     template <class Number, class Thickness>
@@ -110,13 +109,19 @@ class SheetEnergy {
     }
 
   private:
+    /// e* at q, its κ sought from where at_p_ puts it: there it is where e is quadratic in κ.
+    [[nodiscard]] LocalJet at_moment(const LayerEnergy& energy, const SheetPoint<double>& x, double q) const {
+        const double curvature = at_p_.partial[local::moment];
+        const double compliance = at_p_.second[local::moment][local::moment];
+        return energy.density.conjugate(q, x.c, x.squared_gradient, curvature + compliance * (q - x.p));
+    }
     /// M₂ k
     template <class Number, class Thickness>
     [[nodiscard]] static Number shift(const SheetPoint<Number>& x, const Thickness& epsilon) {
         return energy_second_moment * epsilon * x.k;
     }
 
-    LocalJet at_p_, at_q_;
+    LocalJet at_p_, at_q_;  // in this order
 };
 
 /// The membrane's elastic state as one sheet of the layer has it.

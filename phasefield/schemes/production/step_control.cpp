@@ -14,7 +14,6 @@ namespace {
 
 constexpr double default_tolerance = constant("default_tolerance");
 constexpr double first_order_part = constant("first_order_part");
-constexpr double least_early_part = constant("least_early_part");
 constexpr double error_part = constant("error_part");
 constexpr double safety = constant("safety");
 constexpr double largest_growth = constant("largest_growth");
@@ -40,10 +39,6 @@ double step_tolerance(const Parameters& p) {
 
 double position_tolerance(const Parameters& p) {
     return step_tolerance(p) * 2 * std::numbers::pi * length_of_structure(p);
-}
-
-double early_part(double time, const Parameters& p) {
-    return std::clamp(std::cbrt(time / structure_time(p)), least_early_part, 1.0);
 }
 
 double first_implicit_step(const Parameters& p) {

@@ -16,9 +16,6 @@ inline constexpr double largest_motion = constant("largest_motion");
 [[nodiscard]] double step_tolerance(const Parameters& parameters);
 /// The same of the membrane's position [nm], over the circumference of what forms.
 [[nodiscard]] double position_tolerance(const Parameters& parameters);
-/// The part of it that a step may have which ends at `time` [µs]: ∛(t/T), T being structure_time, because a membrane
-/// that has just begun to move has not come far; from a tenth to 1.
-[[nodiscard]] double early_part(double time, const Parameters& parameters);
 
 /// The first step [µs]: time.initial_step, or where that is 0 a part of first_step, for it is of order 1.
 [[nodiscard]] double first_implicit_step(const Parameters& parameters);
