@@ -13,7 +13,7 @@
 
 namespace endoflow::boundary_integral {
 
-/// The wall-wall block is built once and decides the balance of forces (1e-13): it gets the finer rule. Targets off the
+/// The wall-wall block is built once and decides the balance of forces (1e-11): it gets the finer rule. Targets off the
 /// walls see them through the coarser one.
 struct WallQuadrature {
     int points = 32;             // per side of a target's closest point

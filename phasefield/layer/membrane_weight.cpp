@@ -1,6 +1,7 @@
 #include "phasefield/layer/membrane_weight.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <cmath>
@@ -167,6 +168,25 @@ ExcessShear excess_shear(const MembraneWeight& weight, const FluidParameters& fl
     const double outer_end = std::atanh(nearly_one);
     return {Rule::integrate(sum, 0.0, outer_end, most_halvings, tolerance),
             Rule::integrate(moment, 0.0, outer_end, most_halvings, tolerance)};
+}
+
+MembraneWeight weight_of_normals() {
+    // ∫ |ψ|^m δ_N dψ in units of (√2 ε)^m, linear in w₂ and w₄.
+    const auto moment = [](double m, double square, double fourth) {
+        const MembraneWeight weight = weight_of(square, fourth);
+        return integral_over_half([&](double phi) {
+            return std::pow(std::atanh(std::min(phi, nearly_one)), m) * (1 - phi * phi) *
+                   weight_factor(phi * phi, weight);
+        });
+    };
+    const auto row = [&](double m) {
+        const double none = moment(m, 0, 0);
+        return std::array{moment(m, 1, 0) - none, moment(m, 0, 1) - none, -none};
+    };
+    const auto [a, b, f] = row(2);
+    const auto [c, d, g] = row(3);
+    const double determinant = a * d - b * c;
+    return weight_of((f * d - b * g) / determinant, (a * g - c * f) / determinant);
 }
 
 MembraneWeight membrane_weight(const FluidParameters& fluid, ViscosityMean mean) {

@@ -77,4 +77,9 @@ ExcessShear excess_shear(const MembraneWeight& weight, const FluidParameters& fl
 /// fluidity stays above half the smaller one.
 MembraneWeight membrane_weight(const FluidParameters& fluid, ViscosityMean mean);
 
+/// δ_N, for which ∫ ψ² δ_N dψ = ∫ |ψ|³ δ_N dψ = 0. Under a normal force on a membrane that cannot stretch, fluid at the
+/// distance ψ moves at (1 + k|ψ|) exp(−k|ψ|) = 1 − (kψ)²/2 + |kψ|³/3 − … of the membrane's speed, k the wave number: a
+/// force and a mean velocity with this weight are those of a sharp membrane up to (kε)⁴, whatever the viscosities.
+MembraneWeight weight_of_normals();
+
 }  // namespace endoflow::phasefield

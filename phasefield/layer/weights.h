@@ -44,6 +44,14 @@ Number delta_Gamma(const LayerProfile<Number>& layer, const MembraneWeight& w) {
     return cut_delta(layer) * weight_factor(layer.phi * layer.phi, w);
 }
 
+inline const MembraneWeight normal_weight = weight_of_normals();
+
+/// δ_N [1/nm], with its tails cut off too.
+template <class Number>
+Number delta_N(const LayerProfile<Number>& layer) {
+    return delta_Gamma(layer, normal_weight);
+}
+
 /// H_Γ = ∫ δ_Γ dψ from φ = 0, with the tails cut off: what is cut off is ¾ f (A x − B x² + w₄ x³)/(x² + f) dφ with
 /// x = 1 − φ², A = w₀ + w₂ + w₄, B = w₂ + 2w₄ and f = weight_cut, in which ∫ x dφ/(x² + f) and √f ∫ dφ/(x² + f) are
 /// real and imaginary part of ∫ dφ/(x − i√f).

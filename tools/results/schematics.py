@@ -1,4 +1,4 @@
-"""Figures that explain: the domain with a membrane of the standard case in it, and the diffuse layer's three weights."""
+"""Figures that explain: the domain with a membrane of the standard case in it, and the diffuse layer's weights."""
 
 import numpy as np
 from scipy.integrate import trapezoid
@@ -35,17 +35,26 @@ def domain():
 
 
 def layer():
-    """δ, δ_Γ (equal viscosities) and δ_E through the layer, and on a logarithmic axis where they are cut."""
+    """δ, δ_Γ (equal viscosities), δ_N and δ_E through the layer, and on a logarithmic axis where they are cut."""
     w2, w4, weight_cut, tail_cut = map(scheme_constant, ("equal_square", "equal_fourth", "weight_cut", "tail_cut"))
     x = np.linspace(-6, 6, 961)
     phi = np.tanh(x / np.sqrt(2))
     w = (1 - phi**2) ** 2
     delta = 3 / (4 * np.sqrt(2)) * w
-    w0 = 1 - w2 / 5 - 3 * w4 / 35
-    membrane = (w0 + w2 * phi**2 + w4 * phi**4) * delta * w / (w + weight_cut)
+
+
+    def weight(w2, w4):
+        return (1 - w2 / 5 - 3 * w4 / 35 + w2 * phi**2 + w4 * phi**4) * delta * w / (w + weight_cut)
+
+    def moments(values):
+        return np.array([trapezoid(values * np.abs(x) ** power, x) for power in (2, 3)])
+
+    membrane, none = weight(w2, w4), moments(weight(0, 0))
+    by_coefficient = np.column_stack([moments(weight(1, 0)) - none, moments(weight(0, 1)) - none])
+    normal = weight(*np.linalg.solve(by_coefficient, -none))
     energy = delta * w / (w + tail_cut)
     energy /= trapezoid(energy, x)
-    looks = ((delta, "δ", ink.FAINT, "-", 3), (membrane, "$δ_Γ$", ink.SHARP, "-", 1.6), (energy, "$δ_E$", ink.DIFFUSE, "--", 1.6))
+    looks = ((delta, "δ", ink.FAINT, "-", 3), (membrane, "$δ_Γ$", ink.SHARP, "-", 1.6), (normal, "$δ_N$", ink.THIRD, "-", 1.2), (energy, "$δ_E$", ink.DIFFUSE, "--", 1.6))
     figure, grid = ink.panels(1, 2, (7.2, 2.9))
     for axes, size in zip(grid, (np.asarray, np.abs)):
         for values, label, colour, line, width in looks:
@@ -63,5 +72,5 @@ def layer():
 #: {name of the file: (title, what draws it, the tables it shows)}.
 SCHEMATICS = {
     "domain": ("The domain in the meridian plane, with the membrane of the standard case at 0.5 µs", domain, ("standard-shape",)),
-    "layer": ("The three weights of the diffuse layer", layer, ()),
+    "layer": ("The weights of the diffuse layer", layer, ()),
 }

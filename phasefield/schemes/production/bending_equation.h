@@ -12,7 +12,7 @@ namespace endoflow::phasefield::production {
 // The Laplacian is integrated by parts, ∫ δ_E m Δψ = −∫ ∇ψ·∇(δ_E m), where ∇δ_E = δ_E' ∇ψ + ∂δ_E/∂ε ∇ε: W below is the
 // density of what results, and holds first derivatives alone. Its rows are its derivatives,
 //
-//   −∂E/∂m [v]  = −∫ ∂W/∂m v + ∂W/∂∇m·∇v,      ∫ δ_Γ G χ − ∂E/∂ψ[χ] = ∫ (δ_Γ G − ∂W/∂ψ) χ − ∂W/∂∇ψ·∇χ,
+//   −∂E/∂m [v]  = −∫ ∂W/∂m v + ∂W/∂∇m·∇v,      ∫ δ_N G χ − ∂E/∂ψ[χ] = ∫ (δ_N G − ∂W/∂ψ) χ − ∂W/∂∇ψ·∇χ,
 //
 // and, where the energy knows ∇_Γ c, ∫ δ_E μ v − ∂E/∂c [v] in the same way. This κ_ε belongs to this weight: with that
 // of δ the cut of δ_E would exert a force on curved membranes that does not vanish with ε. The last term of (L) keeps m
@@ -95,7 +95,7 @@ MembraneForces<Number> add_derivatives(const Fields<Number>& x, const PointGeome
     const auto density = energy_density(differentiated(here), r, past.thickness, energy, sheet, p.scaled_delta_E);
     const auto W_by = [&](argument::Index a) { return compose_partial(density.W, a, here); };
     row[moment] = {-W_by(argument::m), -W_by(argument::m_r), -W_by(argument::m_z)};
-    row[normal_force] = {(p.delta_Gamma + surface_floor / p.epsilon) * x[normal_force].value - W_by(argument::psi),
+    row[normal_force] = {(p.delta_N + surface_floor / p.epsilon) * x[normal_force].value - W_by(argument::psi),
                          -W_by(argument::psi_r), -W_by(argument::psi_z)};
 
     const Number E_epsilon = compose_partial(density.at_given_bend, argument::epsilon, here) +

@@ -74,7 +74,7 @@ void add_flow(const PointState& at, double r, double w, const StepNumbers& step,
                                       at.layer.delta * at.x[pressure_layer].value * divergence);
     if (step.fluid.dynamics != Dynamics::geometric) return;
     const double G = at.x[normal_force].value;
-    diagnostics.mobility_dissipation += w * step.fluid.normal_mobility * G * G * at.delta_Gamma;
+    diagnostics.mobility_dissipation += w * step.fluid.normal_mobility * G * G * delta_N(at.layer);
 }
 
 /// `rate` is ∂c/∂t, `bulk` c_b/c_∞.

@@ -65,8 +65,8 @@ double load_power(const StepProblem& problem, const Vector& solution) {
                        const double u_r = x[velocity_r].value, u_z = x[velocity_z].value;
                        const double pushed = -step.loads.pressure * (x[distance].r * u_r + x[distance].z * u_z);
                        const double pulled = past.material_force.z + step.coat_force * x[molecule_density].value;
-                       sum += at.measure * delta_Gamma(layer, step.weight) *
-                              (pushed + past.material_force.r * u_r + pulled * u_z);
+                       sum += at.measure * (delta_N(layer) * pushed + delta_Gamma(layer, step.weight) *
+                                                                          (past.material_force.r * u_r + pulled * u_z));
                    });
     RimTension rim(space, step);
     for_each_cell(space, [&](const Cell& cell, const CellBox& /*box*/) { sum += rim.power(cell, solution); });

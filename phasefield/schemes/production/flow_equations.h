@@ -7,21 +7,21 @@ namespace endoflow::phasefield::production {
 
 /// The force on the fluid per volume [pN/nm³], the right side of (32) without λ:
 ///
-///   δ_Γ ((G − Δp) ∇ψ + e_c ∇ₜc + f + F_a c/∫c dA e_z) + δ_E e_c ∇ₙc + E_ε ∇ₙε + D δ ∂_N G ∂_N∇ψ.
+///   δ_N (G − Δp) ∇ψ + δ_Γ (e_c ∇ₜc + f + F_a c/∫c dA e_z) + δ_E e_c ∇ₙc + E_ε ∇ₙε + D δ ∂_N G ∂_N∇ψ.
 ///
 /// Along the sheets e_c ∇c has the weight of the tension that balances it; where c's level lines are off the normal,
 /// the part across is that of the energy, or the two would not cancel in the net force, 1 pN of which is a per cent of
 /// the flow. Of the loads, the pressure Δp acts as the normal force −Δp of the fluid that it is taken off of: p is less
-/// than the pressure by Δp (½ + H_Γ), so that walls are free of stress. The last term gives back what the diffusion of
-/// G along the normal takes from the net force where ∇ψ changes along the normal, with ψ's own normal: that of an
-/// extrapolated ψ, whose tails the layer has reached after a step of ε, would leave some pN. Its work is nobody's loss:
-/// where layers meet and ψ is no distance it would pump, so it fades there.
+/// than the pressure by Δp (½ + ∫ δ_N dψ), so that walls are free of stress. The last term gives back what the
+/// diffusion of G along the normal takes from the net force where ∇ψ changes along the normal, with ψ's own normal:
+/// that of an extrapolated ψ, whose tails the layer has reached after a step of ε, would leave some pN. Its work is
+/// nobody's loss: where layers meet and ψ is no distance it would pump, so it fades there.
 template <class Number>
 PlaneVector<Number> membrane_force(const Fields<Number>& x, const PointGeometry<Number>& p,
                                    const MembraneForces<Number>& force, const PointPast& past,
                                    const GradientChange<Number>& change, const StepNumbers& step) {
     const auto &psi = x[distance], &c = x[molecule_density], &G = x[normal_force];
-    const Number normal = p.delta_Gamma * (G.value - step.loads.pressure);
+    const Number normal = p.delta_N * (G.value - step.loads.pressure);
     // e_c along the sheets is cut off where δ_E is.
     const Number molecules = step.weight.cut * kept_by_cut(p.layer.well, tail_cut) * p.delta_Gamma * force.e_c;
     const Number across = force.thickness + (p.delta_E * force.e_c - molecules) * dot(psi, c) /

@@ -8,10 +8,10 @@ inline constexpr double far_part = constant("far_part");
 
 /// (35), times 1/max δ where ε is largest, ε₀:
 ///
-///   δ_Γ (∂_tψ + u·∇ψ + M_n G) = ∇·[ δ (20 ε² N N·∇∂_tψ + M_p ε N (N·∇ψ − 1)) + far (∇ψ − N) ],
+///   δ_N (∂_tψ + u·∇ψ + M_n G) = ∇·[ δ (20 ε² N N·∇∂_tψ + M_p ε N (N·∇ψ − 1)) + far (∇ψ − N) ],
 ///
 /// M_n G without a fluid alone. The fluxes along the normal keep |∇ψ| = 1 and conserve ∫ H_Γ, so they do not move the
-/// membrane. The first vanishes for distance functions however they move and outweighs δ_Γ where that is negative; the
+/// membrane. The first vanishes for distance functions however they move and outweighs δ_N where that is negative; the
 /// second restores what is lost. Far from the layer ψ solves ∇·(∇ψ − N) = 0, whose solution is the distance, for N are
 /// the normals of the curve φ = 0 there.
 template <class Number>
@@ -27,7 +27,7 @@ void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const P
     const Number aligning = (alignment * p.epsilon * widest) * p.layer.well;
     const Number restoring = (step.profile_relaxation * widest) * p.layer.well * (dot(N, psi) - 1.0);
     const double far = step.rates.profile_relaxation * widest * far_part;
-    row[distance] = {length * p.delta_Gamma * moving, aligning * along.r + restoring * N.r + far * (psi.r - N.r),
+    row[distance] = {length * p.delta_N * moving, aligning * along.r + restoring * N.r + far * (psi.r - N.r),
                      aligning * along.z + restoring * N.z + far * (psi.z - N.z)};
 }
 

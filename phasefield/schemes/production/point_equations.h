@@ -13,11 +13,12 @@ namespace endoflow::phasefield::production {
 // fields are smooth across the layer. A row's value multiplies the test function, its r and z the test function's
 // derivatives: the row {f, F_r, F_z} is ∫ f v + F·∇v = 0.
 //
-// One weight δ_Γ (membrane_weight.h) weighs everything that lives on the membrane (tension, molecules, stretching, the
-// motion of ψ, the step of the viscosity), so that the layer's first-order effects cancel: what remains is O(ε²). The
-// force on the fluid is δ_Γ (G ∇ψ + e_c ∇c), where δ_Γ G is the variation of the discrete energy with respect to ψ, and
-// ψ and c move with the same weight: then the work of the force is exactly the energy's change. Without that, motions
-// at the scale of the cells gain energy and grow.
+// One weight δ_Γ (membrane_weight.h) weighs what acts along the membrane (tension, molecules, stretching, the step of
+// the viscosity), so that the layer's first-order effects cancel, another one, δ_N, what acts along the normal (G and
+// the motion of ψ), so that no force is blurred: what remains is O(ε²). The force on the fluid is δ_N G ∇ψ + δ_Γ e_c
+// ∇c, where δ_N G is the variation of the discrete energy with respect to ψ, and ψ and c move with the same weights:
+// then the work of the force is exactly the energy's change. Without that, motions at the scale of the cells gain
+// energy and grow.
 //
 // Where ε changes along the membrane the layer's sheets are those of constant ψ/ε, with the normal N_ε. Along them acts
 // the tension and flow molecules and membrane: δ_Γ is constant there. Along sheets of constant ψ the tension would pull

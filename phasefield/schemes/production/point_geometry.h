@@ -134,7 +134,7 @@ struct PointGeometry {
     double epsilon;  // here [nm]
     LayerProfile<Number> layer;
     ScaledEnergyWeight scaled_delta_E;
-    Number delta_floored, delta_Gamma, delta_E;  // δ with a floor, δ_Γ, δ_E [1/nm]
+    Number delta_floored, delta_Gamma, delta_N, delta_E;  // δ with a floor, δ_Γ, δ_N, δ_E [1/nm]
     Number H_Gamma;
     PlaneVector<Number> N_epsilon, own_normal;
     Number inverse_g, squared_gradient;  // 1/|g|, |∇ψ|²
@@ -151,6 +151,7 @@ PointGeometry<Number> point_geometry(const AtPoint<Number>& psi, const PointPast
             scaled,
             layer.delta + surface_floor / epsilon,
             density,
+            delta_N(layer),
             energy_weight(psi.value, epsilon, scaled).value,
             chain(psi.value, H_Gamma(value_of(layer.phi), weight), value_of(density)),
             N_epsilon,
