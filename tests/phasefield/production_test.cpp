@@ -170,9 +170,9 @@ TEST_CASE("the membrane's weight leaves no excess shear in the layer", "[product
 }
 
 TEST_CASE("the weight of what acts along the normal blurs no force", "[production]") {
-    // Sums over ψ/ε by the midpoint rule are exact to round-off for what decays and is smooth, to the square of the
-    // interval, 1e-4, where |ψ| has its kink; the cut of the tails leaves less than 1e-3 of a moment. δ has a second
-    // moment of 0.645 ε² and a third one of 0.832 ε³.
+    // By the midpoint rule, exact to the square of the interval, 1e-4, where |ψ| has its kink. The cut of the tails
+    // takes 2e-4 (w₀ + w₂ + w₄ = 1.7 times that of δ's) where ψ² is 10 ε². δ has a second moment of 0.645 ε², a third
+    // of 0.83 ε³.
     double whole = 0, second = 0, third = 0, wave = 0;
     constexpr double interval = 0.01, k = 0.2;  // wave number times ε
     for (int i = -2000; i < 2000; ++i) {
@@ -183,8 +183,8 @@ TEST_CASE("the weight of what acts along the normal blurs no force", "[productio
         third += part * std::pow(distance, 3);
         wave += part * (1 + k * distance) * std::exp(-k * distance);
     }
-    CHECK(whole == Approx(1).epsilon(2e-4));
-    CHECK(second == Approx(0).margin(2e-3));
+    CHECK(whole == Approx(1).epsilon(5e-4));
+    CHECK(second == Approx(0).margin(5e-3));
     CHECK(third == Approx(0).margin(2e-2));
     CHECK(wave == Approx(whole).epsilon(0.2 * std::pow(k, 4)));  // with δ it is 0.990
 }

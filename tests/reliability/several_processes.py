@@ -17,13 +17,14 @@ from scratch import scratch_directory  # noqa: E402
 PROGRAM = None
 END = 2e-5  # µs, a few steps
 
-# Newton's method ends at a fiftieth of a step's tolerance; where, depends on the factors, and those on the processes. On other
-# meshes and with other units that has changed first volumes, small differences of what rises and what sinks, by 5e-5. Here
-# it is at most 4e-7 in volume, 2e-7 in height, 5e-8 in energy, 2e-9 in mass and 1e-12 in area; times are the same.
+# Newton's method ends at a fiftieth of a step's tolerance; where, depends on the factors, and those on the processes: with the
+# default tolerance heights of 2 pm differ by up to 3e-5. With a hundredth of it at most by 2e-7 in volume and height, 5e-8 in
+# energy, 2e-9 in mass and 1e-12 in area; times are the same.
+STRICT = "time.tolerance=1e-6"
 TOLERANCES = {
     "time_us": 1e-12,
-    "bud_height_nm": 1e-5,
-    "volume_extracellular_nm3": 1e-4,
+    "bud_height_nm": 1e-6,
+    "volume_extracellular_nm3": 1e-6,
     "membrane_area_nm2": 1e-9,
     "bending_energy_pN_nm": 1e-6,
     "molecule_mass_nm2": 1e-7,
@@ -32,7 +33,7 @@ TOLERANCES = {
 
 def history(directory, processes):
     words = [PROGRAM, "run", "phase-field", "/dev/null", "-o", str(directory), "--until", str(END)]
-    words += options((*texts(COARSE["phase-field"]), "output.field_interval=0"))
+    words += options((*texts(COARSE["phase-field"]), "output.field_interval=0", STRICT))
     subprocess.run(launcher(processes) + words, check=True, capture_output=True, timeout=1200)
     with open(directory / "history.csv", encoding="utf-8") as file:
         return list(csv.DictReader(file))
