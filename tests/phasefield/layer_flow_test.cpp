@@ -9,7 +9,6 @@
 
 using namespace endoflow;
 using namespace endoflow::phasefield;
-using namespace endoflow::phasefield::production;
 
 namespace {
 
