@@ -146,9 +146,9 @@ ModeRates LinearisedMembrane::rates(int mode) const {
     const Eigen::MatrixXd from_velocity =
         4.0 * pi * viscosities.sum() * surroundings_.evaluation(mode) + viscosities.contrast() * layers.doubled;
     const LuFactors equation(from_velocity * velocities, "velocity");
-    const LuFactors mass(velocities.transpose() * forms.force_mass * space.forces(), "force mass");
-    const Eigen::MatrixXd mobility =
-        equation.solve(layers.single * space.forces() * mass.solve(Eigen::MatrixXd::Identity(count, count)));
+    const Eigen::MatrixXd force_from_load =
+        inverse(velocities.transpose() * forms.force_mass * space.forces(), "force mass");
+    const Eigen::MatrixXd mobility = equation.solve(layers.single * space.forces() * force_from_load);
     Eigen::MatrixXd imposed = Eigen::MatrixXd::Zero(space.velocity_count(), displacements);  // of the slope at the rim
     if (space.clamped()) imposed.row(space.slope_at_rim()) = base_.inflow * rim.slope * displaced;
     const Eigen::MatrixXd moved =

@@ -42,7 +42,6 @@ def layer():
     w = (1 - phi**2) ** 2
     delta = 3 / (4 * np.sqrt(2)) * w
 
-
     def weight(w2, w4):
         return (1 - w2 / 5 - 3 * w4 / 35 + w2 * phi**2 + w4 * phi**4) * delta * w / (w + weight_cut)
 

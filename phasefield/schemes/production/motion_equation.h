@@ -10,10 +10,10 @@ inline constexpr double far_part = constant("far_part");
 ///
 ///   δ_N (∂_tψ + u·∇ψ + M_n G) = ∇·[ δ (20 ε² N N·∇∂_tψ + M_p ε N (N·∇ψ − 1)) + far (∇ψ − N) ],
 ///
-/// M_n G without a fluid alone. The fluxes along the normal keep |∇ψ| = 1 and conserve ∫ H_Γ, so they do not move the
-/// membrane. The first vanishes for distance functions however they move and outweighs δ_N where that is negative; the
-/// second restores what is lost. Far from the layer ψ solves ∇·(∇ψ − N) = 0, whose solution is the distance, for N are
-/// the normals of the curve φ = 0 there.
+/// M_n G without a fluid alone. The fluxes along the normal keep |∇ψ| = 1 and conserve what δ_N weighs, so they do not
+/// move the membrane. The first vanishes for distance functions however they move and outweighs δ_N where that is
+/// negative; the second restores what is lost. Far from the layer ψ solves ∇·(∇ψ − N) = 0, whose solution is the
+/// distance, for N are the normals of the curve φ = 0 there.
 template <class Number>
 void add_motion(const Fields<Number>& x, const PointGeometry<Number>& p, const PointPast& past, const StepNumbers& step,
                 Fields<Number>& row) {
